@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The CFD side of a coupled run: everything that a fluid solver calls.
+///
+///     Client client({endpoint, "mySolver"});
+///     client.connect(fluid);                         // Hello -> Welcome
+///     client.send_mesh(mesh);                        // Mesh -> MeshAccepted, then the solid at t = 0
+///     while (...)                                    // both schedules, same loop
+///     {
+///         auto solid = client.begin_step(step, fluid_fields, monitors);  // solid to use in this fluid step
+///         ... solve the fluid t -> t + dt ...
+///         client.end_step(timings);
+///     }
+///     client.finish("end time reached");             // Goodbye
+///
+/// serial: begin_step sends the fluid at t and returns the solid at t + dt. overlapped: it returns the solid at t at
+/// once and both solvers compute; end_step takes the solid at t + dt. Each call throws CouplingError on a fault; an
+/// illegal order of calls is Fault::user and names the state. Not thread-safe: one Client, one thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gimdem/coupling/Error.hpp"
+#include "gimdem/coupling/Types.hpp"
+
+namespace gimdem::coupling
+{
+
+struct ClientOptions
+{
+    std::string endpoint;     ///< "ipc:///path/socket" or "tcp://127.0.0.1:port"
+    std::string name;         ///< who we are, for messages and logs
+    double timeout = 30;      ///< a peer silent for this long is dead [s]
+    double connect_time = 60; ///< how long connect() waits for a server to appear [s]
+    double step_time = 3600;  ///< longest wait for the answer of a live server [s]
+    std::optional<Schedule> schedule;  ///< ask for one; left empty, the server's case file decides
+    std::vector<std::string> wants;    ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
+};
+
+/// The server's answer to Hello.
+struct Welcome
+{
+    std::string server;                ///< name and version of the server
+    std::string title;                 ///< of the case
+    Schedule schedule = Schedule::serial;
+    double end_time = 0;               ///< the run ends here [s]
+    std::vector<std::string> needs;    ///< fluid fields that this scene needs, names of namespace field
+    bool needs_field(std::string const& name) const;
+};
+
+/// What the client measured of the coupling, summed over the run.
+struct ExchangeTimes
+{
+    double exchange = 0;  ///< packing, sending, receiving: the part of a call that is not the server computing [s]
+    double waiting = 0;   ///< blocked while the server computes [s]
+    double bytes = 0;     ///< sent and received
+};
+
+class Client
+{
+public:
+    explicit Client(ClientOptions options);
+    ~Client();
+    Client(Client&&) noexcept;
+    Client& operator=(Client&&) noexcept;
+
+    /// @pre constructed. @post connected, or CouplingError (endpoint, version, timeout, peer).
+    Welcome const& connect(FluidProperties const& fluid);
+
+    /// @pre connected. @post the server holds the mesh, solid() is the state at t = 0; Fault::mesh if it is refused.
+    void send_mesh(MeshView const& mesh);
+
+    /// @pre send_mesh() or end_step() has been called. Returns the solid that the fluid step must use; its spans live
+    /// until the next begin_step or end_step. Sizes of the fields are checked; a NaN or infinity in one is Fault::user.
+    SolidFields const& begin_step(Step const& step, FluidFields const& fluid, std::vector<Monitor> const& monitors = {});
+
+    /// @pre begin_step() has been called. timings tells where this fluid step spent its time.
+    void end_step(Timings const& timings = {});
+
+    /// Why the server asks for an orderly end (Ctrl-C there), if it does: write your fields and call finish().
+    std::optional<std::string> const& stop_request() const;
+
+    /// The last solid received.
+    SolidFields const& solid() const;
+    Welcome const& welcome() const;
+    ExchangeTimes const& exchange_times() const;
+
+    /// Orderly end: Goodbye. Later calls are illegal.
+    void finish(std::string const& reason);
+
+    /// Tell the server why we stop; never throws. The destructor of an unfinished Client does it too.
+    void abort(std::string const& reason) noexcept;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gimdem::coupling

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The particle side of a coupled run.
+///
+///     Server server({endpoint, "gimdem-server 0.1"});
+///     ClientInfo client = server.wait_for_client(terms);   // Hello -> Welcome
+///     Mesh mesh = server.receive_mesh();
+///     server.accept_mesh(solid_at_zero, timings);          // or reject_mesh(why)
+///     while (auto fluid = server.receive_fluid())          // empty at Goodbye
+///     {
+///         ... move the particles t -> t + dt, map them ...
+///         server.send_solid(fields, timings);
+///     }
+///
+/// The schedule is the client's affair: the server always answers a fluid state at t with the solid at t + dt.
+/// Each call throws CouplingError on a fault.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gimdem/coupling/Error.hpp"
+#include "gimdem/coupling/Types.hpp"
+
+namespace gimdem::coupling
+{
+
+struct ServerOptions
+{
+    std::string endpoint;        ///< "ipc:///path/socket", "tcp://127.0.0.1:port" or "tcp://127.0.0.1:*" (any free port)
+    std::string name;            ///< name and version, told to the client
+    double timeout = 30;         ///< a client silent for this long is dead [s]
+    double connect_time = 120;   ///< how long to wait for a client [s]
+    double step_time = 3600;     ///< longest wait for the next message of a live client [s]
+};
+
+/// What the case file fixes and the client is told.
+struct ServerTerms
+{
+    std::string title;
+    Schedule schedule = Schedule::serial;
+    double end_time = 0;             ///< [s]
+    std::vector<std::string> needs;  ///< fluid fields to ask for
+};
+
+/// What Hello told.
+struct ClientInfo
+{
+    std::string name;
+    FluidProperties fluid;
+    std::vector<std::string> wants;  ///< solid fields the client asks for
+    bool wants_field(std::string const& name) const;
+};
+
+/// A fluid state as received; spans live until the next receive_fluid.
+struct FluidState
+{
+    Step step;
+    FluidFields fields;
+    std::vector<Monitor> monitors;
+    Timings previous;   ///< how long the client's previous step took
+    double exchange = 0;  ///< the client's sum of exchange time so far [s]
+    double waiting = 0;   ///< the client's sum of waiting so far [s]
+};
+
+class Server
+{
+public:
+    /// Binds at once: Fault::endpoint if the address is taken or not allowed (only ipc and loopback tcp are).
+    explicit Server(ServerOptions options);
+    ~Server();
+    Server(Server&&) noexcept;
+    Server& operator=(Server&&) noexcept;
+
+    /// The bound address, with the port chosen for "*".
+    std::string const& endpoint() const;
+
+    /// @post Welcome sent; a client of another protocol version is told so and Fault::version is thrown.
+    ClientInfo wait_for_client(ServerTerms const& terms);
+
+    /// @pre a client was welcomed. Every count, offset and index is checked before use; geometry is the caller's to
+    /// check (reject_mesh).
+    Mesh receive_mesh();
+
+    /// @pre receive_mesh. Sends MeshAccepted and the solid at t = 0. Only the fields the client wants are sent.
+    void accept_mesh(SolidFields const& initial, Timings const& timings = {});
+
+    /// Refuse the mesh with a reason; the session is over.
+    void reject_mesh(std::string const& why);
+
+    /// The next fluid state; empty when the client said Goodbye (its reason: goodbye_reason()).
+    std::optional<FluidState> receive_fluid();
+    std::string const& goodbye_reason() const;
+
+    /// @pre receive_fluid. Answers it.
+    void send_solid(SolidFields const& fields, Timings const& timings);
+
+    /// Tell the client why we stop; never throws. The destructor of an unfinished session does it too.
+    void abort(std::string const& reason) noexcept;
+
+    /// Ask the client for an orderly end (Ctrl-C here): the next solid carries the reason, Client::stop_request().
+    void request_stop(std::string const& reason);
+
+    /// Bytes received and sent so far.
+    double bytes() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gimdem::coupling

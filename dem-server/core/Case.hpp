@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The case file as data: what case.toml says, checked, with defaults filled in. SI units.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gimdem
+{
+
+using Triple = std::array<double, 3>;
+
+/// [run]
+struct RunSettings
+{
+    double until = 0;                    ///< simulated time [s]
+    std::string client = "openfoam";     ///< who solves the fluid
+    std::string grid;                    ///< chosen mesh variant, empty where the case has one mesh
+    std::vector<std::string> grids;      ///< mesh variants on offer
+};
+
+/// [coupling]
+struct CouplingSettings
+{
+    std::string schedule = "serial";  ///< serial | overlapped
+    std::string endpoint = "ipc";     ///< ipc | ipc:///path | tcp://127.0.0.1:port
+    double timeout = 30;              ///< a peer silent for this long is dead [s]
+    double connect_time = 120;        ///< wait for the client to appear [s]
+};
+
+/// [dem]
+struct DemSettings
+{
+    double time_step = 0;       ///< upper bound [s]
+    Triple gravity{0, 0, 0};    ///< [m/s^2]
+    int threads = 0;            ///< 0: all cores
+    std::string backend = "openmp";  ///< serial | openmp
+    double skin = 0.1;          ///< of the neighbour list, in units of the smallest radius [1]
+};
+
+/// [[materials]]
+struct MaterialSettings
+{
+    std::string name;
+    double density = 0;        ///< [kg/m^3]
+    double young_modulus = 0;  ///< [Pa]
+    double poisson_ratio = 0;  ///< in [0, 0.5]
+};
+
+/// [[contacts]]: one for every pair of materials that can touch
+struct ContactSettings
+{
+    std::array<std::string, 2> pair;
+    double restitution = 1;  ///< normal, in [0.05, 1]
+    double friction = 0;     ///< Coulomb coefficient of sliding
+};
+
+/// [walls]
+struct WallSettings
+{
+    std::string material;
+    std::vector<std::string> also;  ///< patches that stop particles although the fluid passes
+};
+
+/// [[insertion]]
+struct InsertionSettings
+{
+    std::string material;
+    double diameter = 0;             ///< [m]; for "file" a default where the file has no radius column
+    double mass = 0;                 ///< total [kg], 0: not given
+    std::int64_t count = 0;          ///< 0: not given
+    std::string arrangement = "lattice";      ///< lattice | file
+    std::array<Triple, 2> box{};     ///< lattice: corners [m]
+    double spacing = 0;              ///< lattice: distance of neighbours [m]
+    double jitter = 0;               ///< lattice: largest random displacement per axis [m]
+    std::uint64_t seed = 1;
+    Triple velocity{0, 0, 0};        ///< [m/s]
+    std::filesystem::path file;      ///< file: CSV with header x,y,z[,radius][,vx,vy,vz], relative to the case [m]
+};
+
+/// [settle]
+struct SettleSettings
+{
+    double duration = 0;            ///< at most [s]; 0: do not settle
+    double kinetic_energy = 0;      ///< stop below this mean kinetic energy per particle [J]
+};
+
+/// [fluid_forces]
+struct FluidForceSettings
+{
+    std::string drag = "beetstra";  ///< none | beetstra
+    bool pressure_gradient = true;
+};
+
+/// [mapping]
+struct MappingSettings
+{
+    std::string method = "gim";
+    double void_fraction_minimum = 0.1;  ///< smaller values are clipped and counted
+};
+
+/// A plane over which quantities are averaged.
+struct PlaneSettings
+{
+    std::string name;
+    Triple point{};
+    Triple normal{};
+};
+
+/// [output]
+struct OutputSettings
+{
+    double sample_interval = 1e-3;    ///< of the time series [s]
+    double particle_interval = 1e-2;  ///< of the ParaView files [s]; 0: none
+    std::vector<PlaneSettings> planes;
+    std::string inlet;                ///< patches between which the pressure drop is taken
+    std::string outlet;
+};
+
+/// A whole case.
+struct Case
+{
+    std::filesystem::path file;  ///< case.toml
+    std::string title;
+    RunSettings run;
+    CouplingSettings coupling;
+    DemSettings dem;
+    std::vector<MaterialSettings> materials;
+    std::vector<ContactSettings> contacts;
+    WallSettings walls;
+    std::vector<InsertionSettings> insertion;
+    std::optional<SettleSettings> settle;
+    FluidForceSettings fluid_forces;
+    MappingSettings mapping;
+    OutputSettings output;
+};
+
+/// Read and check a case file.
+///
+/// Throws UserError naming the key, the file, the line and, for an unknown key, the nearest known one; for a value out
+/// of range the allowed range; for a missing key what it is for.
+Case read_case(std::filesystem::path const& file);
+
+/// The same from text, for tests; `file` is only what messages call it.
+Case parse_case(std::string const& text, std::filesystem::path const& file);
+
+}  // namespace gimdem
