@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What has to hold between settings of a case.
+#pragma once
+
+#include <string>
+
+#include <toml++/toml.h>
+
+#include "core/Case.hpp"
+
+namespace gimdem::case_file
+{
+
+/// The document that a case was read from, for the lines in messages.
+struct Document
+{
+    std::string file;
+    toml::table const& root;
+
+    /// Whether the document has the setting, e.g. "insertion[0].mass".
+    bool has(std::string const& path) const;
+
+    /// `file:line` of the setting, or of the nearest section around it that the document has.
+    std::string at(std::string path) const;
+};
+
+/// Throw UserError where settings contradict each other or name what does not exist.
+void check_case(Case const& input, Document const& document);
+
+}  // namespace gimdem::case_file

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "core/Case.hpp"
+#include "core/CaseChecks.hpp"
+#include "core/CaseSettings.hpp"
+#include "core/Error.hpp"
+
+namespace gimdem
+{
+
+namespace
+{
+
+toml::table parse_toml(std::string const& text, std::string const& file)
+{
+    try
+    {
+        return toml::parse(text, file);
+    }
+    catch (toml::parse_error const& error)
+    {
+        auto const where = error.source().begin;
+        throw UserError(file + ':' + std::to_string(where.line) + ':' + std::to_string(where.column) + ": not TOML (" +
+                        std::string(error.description()) + "); mend this line, https://toml.io tells how");
+    }
+}
+
+/// Paths in a case file are relative to the file.
+void resolve_paths(Case& input)
+{
+    for (auto& insertion : input.insertion)
+        if (!insertion.file.empty() && insertion.file.is_relative())
+            insertion.file = input.file.parent_path() / insertion.file;
+}
+
+}  // namespace
+
+Case parse_case(std::string const& text, std::filesystem::path const& file)
+{
+    std::string const name = file.string();
+    toml::table const root = parse_toml(text, name);
+    Case input;
+    input.file = file;
+
+    case_file::Setting const top;
+    case_file::read({root, top, "", false, name}, input);
+    resolve_paths(input);
+    case_file::check_case(input, {name, root});
+    return input;
+}
+
+Case read_case(std::filesystem::path const& file)
+{
+    if (std::filesystem::is_directory(file))
+        throw UserError(file.string() + " is a folder (a case file is needed); give " + (file / "case.toml").string());
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    if (!stream || !(text << stream.rdbuf()))
+        throw UserError(file.string() + " cannot be read (" + std::strerror(errno) + "); give the path of a case.toml");
+    return parse_case(text.str(), file);
+}
+
+}  // namespace gimdem

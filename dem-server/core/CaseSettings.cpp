@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/CaseSettings.hpp"
+
+#include "core/CaseTable.hpp"
+
+namespace gimdem
+{
+
+using namespace case_file;
+
+// Columns: key, member, unit, range, example, purpose. The order is that of the documentation.
+// clang-format off
+
+Fields<Case> const& settings_of(Case const&)
+{
+    static Fields<Case> const fields = {
+        optional("title",        &Case::title, "", anything(), "\"fluidised bed\"",
+                 "one line that says what the case is"),
+        required("run",          &Case::run,          "how long to simulate and on which mesh"),
+        optional("coupling",     &Case::coupling,     "how the two solvers talk"),
+        required("dem",          &Case::dem,          "how the particles move"),
+        required("materials",    &Case::materials,    "what particles and walls are made of"),
+        required("contacts",     &Case::contacts,     "how two materials touch"),
+        required("walls",        &Case::walls,        "what bounds the particles"),
+        required("insertion",    &Case::insertion,    "which particles there are at the start"),
+        optional("settle",       &Case::settle,       "particles fall and come to rest before the fluid starts"),
+        optional("fluid_forces", &Case::fluid_forces, "what the fluid does to a particle"),
+        optional("mapping",      &Case::mapping,      "how particles become fields on the fluid's mesh"),
+        optional("output",       &Case::output,       "what is written, and how often"),
+    };
+    return fields;
+}
+
+Fields<RunSettings> const& settings_of(RunSettings const&)
+{
+    using S = RunSettings;
+    static Fields<S> const fields = {
+        required("until",  &S::until,  "s", above(0), "1.0", "time to simulate"),
+        optional("client", &S::client, "", one_of({"openfoam", "reference"}), "\"openfoam\"", "who solves the fluid"),
+        optional("grid",   &S::grid,   "", anything(), "\"B\"", "mesh variant to use, one of grids"),
+        optional("grids",  &S::grids,  "", anything(), "[\"A\", \"B\"]", "mesh variants on offer"),
+    };
+    return fields;
+}
+
+Fields<CouplingSettings> const& settings_of(CouplingSettings const&)
+{
+    using S = CouplingSettings;
+    static Fields<S> const fields = {
+        optional("schedule",     &S::schedule,     "", one_of({"serial", "overlapped"}), "\"serial\"",
+                 "serial: one solver waits for the other; overlapped: both compute at once"),
+        optional("endpoint",     &S::endpoint,     "", endpoint(), "\"tcp://127.0.0.1:5570\"",
+                 "where the solvers meet; ipc is a private socket file"),
+        optional("timeout",      &S::timeout,      "s", above(0), "30.0", "a peer silent for this long is dead"),
+        optional("connect_time", &S::connect_time, "s", above(0), "120.0",
+                 "how long to wait for the fluid solver to appear"),
+    };
+    return fields;
+}
+
+Fields<DemSettings> const& settings_of(DemSettings const&)
+{
+    using S = DemSettings;
+    static Fields<S> const fields = {
+        required("time_step", &S::time_step, "s", above(0), "2.5e-5",
+                 "upper bound; a coupling step takes a whole number of equal steps"),
+        required("gravity",   &S::gravity,   "m/s^2", anything(), "[0.0, 0.0, -9.81]", "acceleration of free fall"),
+        optional("threads",   &S::threads,   "", at_least(0), "0", "threads to use, 0: all cores"),
+        optional("backend",   &S::backend,   "", one_of({"serial", "openmp"}), "\"openmp\"", "what runs the loops"),
+        optional("skin",      &S::skin,      "", fraction(0, 1), "0.1",
+                 "of the neighbour list, in units of the smallest radius"),
+    };
+    return fields;
+}
+
+Fields<MaterialSettings> const& settings_of(MaterialSettings const&)
+{
+    using S = MaterialSettings;
+    static Fields<S> const fields = {
+        required("name",          &S::name,          "", not_empty(), "\"bead\"",
+                 "what contacts, walls and insertion call it"),
+        required("density",       &S::density,       "kg/m^3", above(0), "1150.0", "mass per volume of a particle"),
+        required("young_modulus", &S::young_modulus, "Pa", above(0), "1.2e5", "stiffness in contact"),
+        required("poisson_ratio", &S::poisson_ratio, "", within(0, 0.5), "0.33", "lateral to axial strain"),
+    };
+    return fields;
+}
+
+Fields<ContactSettings> const& settings_of(ContactSettings const&)
+{
+    using S = ContactSettings;
+    static Fields<S> const fields = {
+        required("pair",        &S::pair,        "", anything(), "[\"bead\", \"bead\"]",
+                 "the two materials that touch"),
+        required("restitution", &S::restitution, "", within(0.05, 1), "0.9",
+                 "normal speed after over before a collision"),
+        required("friction",    &S::friction,    "", at_least(0), "0.3", "Coulomb's coefficient of sliding"),
+    };
+    return fields;
+}
+
+Fields<WallSettings> const& settings_of(WallSettings const&)
+{
+    using S = WallSettings;
+    static Fields<S> const fields = {
+        required("material", &S::material, "", not_empty(), "\"bead\"",
+                 "what the wall patches of the mesh are made of"),
+        optional("also",     &S::also,     "", anything(), "[\"inlet\"]",
+                 "patches that stop particles although the fluid passes"),
+    };
+    return fields;
+}
+
+Fields<InsertionSettings> const& settings_of(InsertionSettings const&)
+{
+    using S = InsertionSettings;
+    static Fields<S> const fields = {
+        required("material",    &S::material,    "", not_empty(), "\"bead\"", "what the particles are made of"),
+        optional("diameter",    &S::diameter,    "m", above(0), "1.545e-3",
+                 "of each particle; needed unless the file has a column radius"),
+        optional("mass",        &S::mass,        "kg", above(0), "0.039", "of all particles together; or give count"),
+        optional("count",       &S::count,       "", at_least(1), "17563", "number of particles; or give mass"),
+        optional("arrangement", &S::arrangement, "", one_of({"lattice", "file"}), "\"lattice\"",
+                 "lattice: on a cubic lattice in box; file: at the positions in file"),
+        optional("box",         &S::box,         "m", anything(), "[[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]",
+                 "lower and upper corner of the lattice"),
+        optional("spacing",     &S::spacing,     "m", above(0), "1.65e-3", "distance of neighbours on the lattice"),
+        optional("jitter",      &S::jitter,      "m", at_least(0), "2e-5",
+                 "largest random displacement from the lattice along each axis"),
+        optional("seed",        &S::seed,        "", at_least(0), "1", "of the random displacements"),
+        optional("velocity",    &S::velocity,    "m/s", anything(), "[0.0, 0.0, 0.0]", "at the start"),
+        optional("file",        &S::file,        "", anything(), "\"positions.csv\"",
+                 "CSV with the header x,y,z[,radius][,vx,vy,vz] in SI units, beside the case file"),
+    };
+    return fields;
+}
+
+Fields<SettleSettings> const& settings_of(SettleSettings const&)
+{
+    using S = SettleSettings;
+    static Fields<S> const fields = {
+        required("duration",       &S::duration,       "s", at_least(0), "0.5",
+                 "longest time to settle, 0: do not settle"),
+        optional("kinetic_energy", &S::kinetic_energy, "J", at_least(0), "1e-9",
+                 "settled once the mean kinetic energy per particle is below this"),
+    };
+    return fields;
+}
+
+Fields<FluidForceSettings> const& settings_of(FluidForceSettings const&)
+{
+    using S = FluidForceSettings;
+    static Fields<S> const fields = {
+        optional("drag",              &S::drag,              "", one_of({"none", "beetstra"}), "\"beetstra\"",
+                 "drag law"),
+        optional("pressure_gradient", &S::pressure_gradient, "", anything(), "true",
+                 "buoyancy and the like: minus volume times pressure gradient"),
+    };
+    return fields;
+}
+
+Fields<MappingSettings> const& settings_of(MappingSettings const&)
+{
+    using S = MappingSettings;
+    static Fields<S> const fields = {
+        optional("method",                &S::method,                "", one_of({"gim"}), "\"gim\"",
+                 "gim: Gaussian Integral Method"),
+        optional("void_fraction_minimum", &S::void_fraction_minimum, "", between(0, 1), "0.1",
+                 "smaller void fractions are clipped to this and counted"),
+    };
+    return fields;
+}
+
+Fields<PlaneSettings> const& settings_of(PlaneSettings const&)
+{
+    using S = PlaneSettings;
+    static Fields<S> const fields = {
+        required("name",   &S::name,   "", not_empty(), "\"45mm\"", "part of the column names in the time series"),
+        required("point",  &S::point,  "m", anything(), "[0.0, 0.0, 0.045]", "a point of the plane"),
+        required("normal", &S::normal, "", anything(), "[0.0, 0.0, 1.0]", "direction across the plane, of any length"),
+    };
+    return fields;
+}
+
+Fields<OutputSettings> const& settings_of(OutputSettings const&)
+{
+    using S = OutputSettings;
+    static Fields<S> const fields = {
+        optional("sample_interval",   &S::sample_interval,   "s", above(0), "1e-3", "between rows of the time series"),
+        optional("particle_interval", &S::particle_interval, "s", at_least(0), "1e-2",
+                 "between ParaView files, 0: none"),
+        optional("planes",            &S::planes,            "over which pressure and void fraction are averaged"),
+        optional("inlet",             &S::inlet,             "", not_empty(), "\"inlet\"",
+                 "the pressure drop is taken from this patch"),
+        optional("outlet",            &S::outlet,            "", not_empty(), "\"outlet\"",
+                 "the pressure drop is taken to this patch"),
+    };
+    return fields;
+}
+
+// clang-format on
+
+}  // namespace gimdem
