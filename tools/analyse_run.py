@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of a run: what the server summed up, and time means over the fluidised bed.
+
+    tools/analyse_run.py RUN_DIR [--from 0.4] [--to 1.0] [--compare RUN_DIR2]
+
+Prints a line `figure: name = value [unit]` each; with --compare, both runs side by side.
+"""
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from console import UserError
+from results import BedSeries, Figure, read_json, read_summary
+
+FLUIDISED = (0.4, 1.0)  # [s]
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("run", metavar="RUN_DIR", type=Path, help="folder of a run")
+    parser.add_argument("--from", dest="begin", metavar="T", type=float, default=FLUIDISED[0], help="means from [s] (0.4)")
+    parser.add_argument("--to", dest="end", metavar="T", type=float, default=FLUIDISED[1], help="means to [s] (1.0)")
+    parser.add_argument("--compare", metavar="RUN_DIR2", type=Path, help="a second run, shown beside the first")
+
+
+def main(arguments: list[str]) -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    add_options(parser)
+    try:
+        return show_figures(parser.parse_args(arguments))
+    except UserError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return error.code
+
+
+def show_figures(options: argparse.Namespace) -> int:
+    figures = figures_of(options.run, options.begin, options.end)
+    if options.compare is None:
+        for figure in figures:
+            print(figure)
+    else:
+        print_side_by_side(options.run, figures, options.compare, figures_of(options.compare, options.begin, options.end))
+    return 0
+
+
+def figures_of(folder: Path, begin: float = FLUIDISED[0], end: float = FLUIDISED[1]) -> list[Figure]:
+    """All figures of a run; those that the server gives come first and win."""
+    series = BedSeries(folder / "bed.csv")
+    figures = read_summary(folder)
+    known = {figure.name for figure in figures}
+    return figures + [figure for figure in time_means(series, begin, end) if figure.name not in known]
+
+
+def time_means(series: BedSeries, begin: float, end: float) -> list[Figure]:
+    """Mean and standard deviation of each column over [begin, end]; none where the run did not get there."""
+    time = series["time"]
+    # Times are sums of steps: let rounding not decide about the ends.
+    inside = (time >= begin - 1e-9) & (time <= end + 1e-9)
+    if inside.sum() < 2:
+        return []
+    figures = [Figure("mean_from", float(time[inside][0]), "s"), Figure("mean_to", float(time[inside][-1]), "s")]
+    for name in series.names():
+        values = series[name][inside]
+        if name == "time" or not np.isfinite(values).all():
+            continue
+        figures.append(Figure(f"mean_{name}", float(values.mean()), series.units[name]))
+        figures.append(Figure(f"deviation_{name}", float(values.std()), series.units[name]))
+    return figures
+
+
+def print_side_by_side(first: Path, left: list[Figure], second: Path, right: list[Figure]) -> None:
+    """A table of both runs and the change from the first to the second."""
+    labels = [read_json(folder / "run.json").get("settings", {}).get("schedule", folder.name) for folder in (first, second)]
+    print(f"{'':<40} {labels[0]:>14} {labels[1]:>14} {'change':>9}")
+    others = {figure.name: figure for figure in right}
+    for figure in left:
+        other = others.get(figure.name)
+        if other is None:
+            continue
+        change = f"{100 * (other.value / figure.value - 1):+.2f} %" if figure.value else ""
+        print(f"{f'{figure.name} [{figure.unit}]':<40} {figure.value:>14.6g} {other.value:>14.6g} {change:>9}")
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

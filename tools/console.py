@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the front door says, and where things are."""
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+class UserError(Exception):
+    """Something the user can mend. The text reads: problem (why it is one); what to do."""
+
+    def __init__(self, text: str, code: int = 1) -> None:
+        super().__init__(text)
+        self.code = code
+
+
+def say(label: str, text: str) -> None:
+    """One line of what is going on, on stderr: stdout is for results."""
+    print(f"{label + ':':<9} {text}", file=sys.stderr, flush=True)
+
+
+def build_dir() -> Path:
+    """Where the binaries are built; GIMDEM_BUILD_DIR points elsewhere."""
+    return Path(os.environ.get("GIMDEM_BUILD_DIR") or ROOT / "build" / "release").resolve()
+
+
+def server_binary() -> Path:
+    return build_dir() / "bin" / "gimdem-server"
+
+
+def openfoam_client_binary() -> Path:
+    return build_dir() / "bin" / "gimdemFoam"
+
+
+def shown(path: Path) -> str:
+    """A path as one would type it here."""
+    try:
+        relative = os.path.relpath(path)
+    except ValueError:
+        return str(path)
+    return str(path) if relative.startswith("../../..") else relative
+
+
+def tail_of(path: Path, lines: int) -> str:
+    """The last lines of a log, empty where there is none."""
+    try:
+        return "\n".join(path.read_text(errors="replace").splitlines()[-lines:])
+    except OSError:
+        return ""

@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""./gimdem run: from a case folder to results."""
+from __future__ import annotations
+
+import argparse
+import signal
+import subprocess
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import openfoam
+from build import build
+from case_folder import CLIENTS, CaseDescription, check_grid, check_openfoam_dictionaries, describe, find_case_file
+from console import UserError, openfoam_client_binary, say, server_binary, shown
+from endpoint import Endpoint
+from process import how_it_ended, spawn
+from record import RunRecord
+from report import print_results
+from run_folder import copy_case, make_run_folder
+from packages import setup
+from supervise import Child, Outcome, Supervisor
+
+TARGETS = ("gimdem-server", "gimdemFoam")
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("case", metavar="CASE_DIR", help="a folder with a case.toml")
+    parser.add_argument("--client", choices=CLIENTS, help="who solves the fluid (default: as case.toml says)")
+    parser.add_argument("--schedule", choices=("serial", "overlapped"), help="who waits for whom (case.toml)")
+    parser.add_argument("--device", choices=("auto", "cuda", "cpu"), default="auto", help="where the particles are computed")
+    parser.add_argument("--grid", metavar="X", help="mesh variant of the case (case.toml)")
+    parser.add_argument("--until", metavar="T", type=positive, help="simulated time [s] (case.toml)")
+    parser.add_argument("--threads", metavar="N", type=count, help="threads of the server; 0: all cores (case.toml)")
+    parser.add_argument("--ranks", metavar="N", type=count, default=1, help="processes of the client (1)")
+    parser.add_argument("--output", metavar="DIR", help="run folder; must be new or empty (CASE_DIR/runs/NNNN)")
+
+
+def positive(text: str) -> float:
+    value = float(text)
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not a positive number")
+    return value
+
+
+def count(text: str) -> int:
+    if int(text) < 0:
+        raise argparse.ArgumentTypeError(f"{text} is negative")
+    return int(text)
+
+
+def run(options: argparse.Namespace) -> int:
+    """The whole job; returns the exit code."""
+    refuse_what_is_to_come(options.client, options.device, options.ranks)
+    case_file = find_case_file(options.case)
+    setup(quiet=True)
+    build(TARGETS)
+    case = choose(describe(case_file), options)
+    check_openfoam_dictionaries(case)
+    endpoint = Endpoint(case.endpoint)
+    try:
+        return run_in_folder(case, options, endpoint)
+    finally:
+        endpoint.close()
+
+
+def refuse_what_is_to_come(client: str | None, device: str, ranks: int) -> None:
+    """Options whose meaning is settled but that nothing implements here."""
+    if client == "reference":
+        raise UserError("the reference client is not part of this version; use --client openfoam", 2)
+    if device == "cuda":
+        raise UserError("this version computes particles on the CPU only; use --device cpu, or leave it out", 2)
+    if ranks != 1:
+        raise UserError(f"this version runs one client process, not {ranks}; leave out --ranks", 2)
+
+
+def choose(case: CaseDescription, options: argparse.Namespace) -> CaseDescription:
+    """The case as the command line changes it."""
+    if options.grid:
+        check_grid(case, options.grid)
+    case.grid = options.grid or case.grid
+    case.client = options.client or case.client
+    case.schedule = options.schedule or case.schedule
+    case.until = options.until or case.until
+    refuse_what_is_to_come(case.client, "auto", 1)
+    return case
+
+
+@dataclass
+class Run:
+    """One run in its folder."""
+
+    case: CaseDescription
+    folder: Path
+    endpoint: Endpoint
+    threads: int | None
+
+    @property
+    def client_log(self) -> Path:
+        return self.folder / "log.gimdemFoam"
+
+    @property
+    def server_log(self) -> Path:
+        return self.folder / "log.server"
+
+    def settings(self) -> dict[str, Any]:
+        return {
+            "case": str(self.case.file), "client": self.case.client, "grid": self.case.grid,
+            "schedule": self.case.schedule, "until": self.case.until, "threads": self.threads,
+            "endpoint": self.endpoint.address,
+        }
+
+    def start_server(self, stderr: int) -> subprocess.Popen[bytes]:
+        command = [
+            str(server_binary()), "--case", str(self.case.file), "--run", str(self.folder), "--endpoint",
+            self.endpoint.address, "--until", repr(self.case.until), "--schedule", self.case.schedule,
+        ]
+        if self.threads is not None:
+            command += ["--threads", str(self.threads)]
+        with self.server_log.open("ab") as log:
+            return spawn(command, stdout=log, stderr=stderr)
+
+    def start_client(self) -> subprocess.Popen[bytes]:
+        command = [str(openfoam_client_binary()), "-case", str(self.folder), "-endpoint", self.endpoint.address]
+        with self.client_log.open("ab") as log:
+            return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder, env=openfoam.environment())
+
+
+def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: Endpoint) -> int:
+    run = Run(case, make_run_folder(case, options.output), endpoint, options.threads)
+    say("case", case.title)
+    say("run", f"{shown(run.folder)}: grid {case.grid or 'as it is'}, {case.schedule}, until {case.until:g} s")
+    copy_case(case, run.folder)
+    say("mesh", openfoam.make_mesh(run.folder))
+    record = RunRecord(run.folder, run.settings())
+    start = time.monotonic()
+    outcome = Supervisor(case.timeout).run(run.start_server, endpoint.bound, run.start_client)
+    wall_time = time.monotonic() - start
+    record.finish(in_words(outcome), wall_time)
+    if outcome.killed or not (outcome.good() or outcome.signal):
+        raise UserError(failure(outcome, run), exit_code(outcome))
+    print_results(run.folder, wall_time)
+    if outcome.signal:
+        say("stopped", f"by {signal.Signals(outcome.signal).name}, before the end")
+    return exit_code(outcome)
+
+
+def in_words(outcome: Outcome) -> str:
+    if outcome.killed:
+        return "killed"
+    if outcome.good():
+        return "stopped" if outcome.signal else "finished"
+    return "failed"
+
+
+def exit_code(outcome: Outcome) -> int:
+    """0, 1, or the shell's convention for a signal."""
+    if outcome.signal:
+        return 128 + outcome.signal
+    return 0 if outcome.good() else 1
+
+
+def failure(outcome: Outcome, run: Run) -> str:
+    """One message with both reasons."""
+    if outcome.killed:
+        return f"killed at once, as asked; what was written until then is in {shown(run.folder)}"
+    first = outcome.first()
+    reasons = {
+        "gimdem-server": " ".join(outcome.errors) or reason_without_words(outcome.server),
+        "gimdemFoam": openfoam.error_in(run.client_log) or reason_without_words(outcome.client),
+    }
+    lines = [f"the run failed: {how_it_ended(first.name, first.code)}"]
+    lines += [f"  {name}: {reason}" for name, reason in reasons.items() if reason]
+    lines.append(f"  logs: {shown(run.server_log)}, {shown(run.client_log)}")
+    return "\n".join(lines)
+
+
+def reason_without_words(child: Child) -> str:
+    """For a process that left no message."""
+    if child.forced:
+        return "did not end by itself after its peer was gone, and was made to"
+    return "" if child.code == 0 else f"{how_it_ended(child.name, child.code)} without a message"

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Watch server and client until both have ended, whatever happens to either or to us."""
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from types import FrameType
+
+from relay import Relay
+
+POLL = 0.1  # [s]
+LAST_WORDS = 3.0  # between asking a process to go and making it go [s]
+
+
+@dataclass
+class Child:
+    """One of the two processes."""
+
+    name: str
+    process: subprocess.Popen[bytes]
+    ended_at: float | None = None
+    forced: bool = False
+
+    def alive(self) -> bool:
+        if self.process.poll() is None:
+            return True
+        if self.ended_at is None:
+            self.ended_at = time.monotonic()
+        return False
+
+    @property
+    def code(self) -> int:
+        return self.process.returncode
+
+    def tell(self, number: int) -> None:
+        if self.alive():
+            self.process.send_signal(number)
+
+
+@dataclass
+class Outcome:
+    """How the pair ended."""
+
+    server: Child
+    client: Child
+    signal: int = 0  # that asked us to stop, 0: none
+    killed: bool = False  # at the second signal
+    errors: list[str] = field(default_factory=list)  # of the server
+
+    def first(self) -> Child:
+        """Who ended first, hence where to look for the cause."""
+        pair = sorted((self.server, self.client), key=lambda child: child.ended_at or 0.0)
+        # Both within one look: the one that failed is the cause.
+        if abs((pair[0].ended_at or 0) - (pair[1].ended_at or 0)) < 2 * POLL and pair[0].code == 0:
+            return pair[1]
+        return pair[0]
+
+    def good(self) -> bool:
+        return self.server.code == 0 and self.client.code == 0 and not self.killed
+
+
+class StopRequest:
+    """Counts SIGINT, SIGTERM and SIGHUP instead of dying of them."""
+
+    NUMBERS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.first = 0
+        self._previous = {number: signal.signal(number, self._receive) for number in self.NUMBERS}
+
+    def _receive(self, number: int, _frame: FrameType | None) -> None:
+        self.count += 1
+        self.first = self.first or number
+
+    def restore(self) -> None:
+        for number, handler in self._previous.items():
+            signal.signal(number, handler)
+
+
+class Supervisor:
+    """Start the server, then the client; see both to their end."""
+
+    def __init__(self, timeout: float) -> None:
+        self.patience = timeout + 5  # for the other process to notice that its peer is gone [s]
+
+    def run(
+        self, start_server: Callable[[int], subprocess.Popen[bytes]], server_ready: Callable[[], bool],
+        start_client: Callable[[], subprocess.Popen[bytes]],
+    ) -> Outcome:
+        stop = StopRequest()
+        relay = Relay()
+        children: list[Child] = []
+        try:
+            children.append(Child("gimdem-server", start_server(relay.child_end)))
+            relay.child_started()
+            while children[0].alive() and not server_ready() and not stop.count:
+                relay.pump(POLL)
+            children.append(Child("gimdemFoam", start_client()))
+            outcome = Outcome(children[0], children[1])
+            self._watch(outcome, relay, stop)
+            relay.drain()
+            outcome.errors = relay.errors
+            return outcome
+        finally:
+            for child in children:
+                if child.alive():
+                    child.process.kill()
+                    child.process.wait()
+            stop.restore()
+
+    def _watch(self, outcome: Outcome, relay: Relay, stop: StopRequest) -> None:
+        handled = 0
+        while True:
+            relay.pump(POLL)
+            alive = [child for child in (outcome.server, outcome.client) if child.alive()]
+            if not alive:
+                return
+            if stop.count > handled:
+                handled = stop.count
+                self._obey(outcome, stop)
+            if len(alive) == 1:
+                other = outcome.client if alive[0] is outcome.server else outcome.server
+                self._hurry(alive[0], time.monotonic() - (other.ended_at or 0.0))
+
+    @staticmethod
+    def _obey(outcome: Outcome, stop: StopRequest) -> None:
+        """The server alone is asked to end: it tells the client, and both write what they have."""
+        outcome.signal = stop.first
+        if stop.count == 1:
+            print("\nstopping: at the end of this step (once more: at once, and without results)", file=sys.stderr)
+            outcome.server.tell(signal.SIGINT)
+        else:
+            outcome.killed = True
+            outcome.server.tell(signal.SIGKILL)
+            outcome.client.tell(signal.SIGKILL)
+
+    def _hurry(self, child: Child, alone_for: float) -> None:
+        """A process whose peer is gone ends by itself; if not in time, it is made to."""
+        if alone_for > self.patience + LAST_WORDS:
+            child.tell(signal.SIGKILL)
+        elif alone_for > self.patience and not child.forced:
+            child.forced = True
+            child.tell(signal.SIGTERM)
