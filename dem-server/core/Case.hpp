@@ -80,7 +80,8 @@ struct InsertionSettings
     double jitter = 0;               ///< lattice: largest random displacement per axis [m]
     std::uint64_t seed = 1;
     Triple velocity{0, 0, 0};        ///< [m/s]
-    std::filesystem::path file;      ///< file: CSV with header x,y,z[,radius][,vx,vy,vz], relative to the case [m]
+    /// file: CSV with the header x,y,z[,radius][,vx,vy,vz] [m, m/s]; in the document relative to it, here resolved
+    std::filesystem::path file;
 };
 
 /// [settle]
@@ -148,5 +149,8 @@ Case read_case(std::filesystem::path const& file);
 
 /// The same from text, for tests; `file` is only what messages call it.
 Case parse_case(std::string const& text, std::filesystem::path const& file);
+
+/// All settings with unit, range, default and purpose, as Markdown for the user guide.
+std::string settings_as_markdown();
 
 }  // namespace gimdem

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "output/OutputFile.hpp"
+
 namespace gimdem::output
 {
 
@@ -25,9 +27,6 @@ class TimeSeries
 public:
     /// Create or replace `file`, with its folders. Throws UserError where that cannot be done.
     TimeSeries(std::filesystem::path file, std::vector<Column> columns);
-    ~TimeSeries();
-    TimeSeries(TimeSeries const&) = delete;
-    TimeSeries& operator=(TimeSeries const&) = delete;
 
     /// Write one row, values in the order of the columns.
     /// @pre values.size() is the number of columns (else std::invalid_argument).
@@ -40,7 +39,7 @@ private:
 
     std::filesystem::path file_;
     std::size_t column_count_;
-    int descriptor_ = -1;
+    Descriptor descriptor_;
 };
 
 }  // namespace gimdem::output

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Numbers and names as text in result files.
+#pragma once
+
+#include <charconv>
+#include <string>
+#include <string_view>
+
+namespace gimdem::output
+{
+
+/// The shortest text that reads back to the same bits.
+inline std::string to_text(double value)
+{
+    char buffer[32];
+    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+/// With the characters that XML gives a meaning replaced.
+std::string xml_escaped(std::string_view text);
+
+/// As a JSON string, with its quotes.
+std::string json_quoted(std::string_view text);
+
+}  // namespace gimdem::output

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "output/TimeSeries.hpp"
+
+#include <fcntl.h>
+
+#include <stdexcept>
+
+#include "output/Text.hpp"
+
+namespace gimdem::output
+{
+
+namespace
+{
+
+/// A heading as CSV: quoted where a comma or quote in it would be taken for the end of the column.
+std::string heading(Column const& column)
+{
+    std::string const text = column.name + " [" + column.unit + ']';
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (char const c : text)
+        quoted.append(c == '"' ? 2 : 1, c);
+    return quoted += '"';
+}
+
+void add_cell(std::string& line, std::string const& cell)
+{
+    if (!line.empty()) line += ',';
+    line += cell;
+}
+
+}  // namespace
+
+TimeSeries::TimeSeries(std::filesystem::path file, std::vector<Column> columns)
+    : file_(std::move(file)), column_count_(columns.size())
+{
+    if (file_.has_parent_path()) make_folder(file_.parent_path());
+    std::string line;
+    for (auto const& column : columns)
+        add_cell(line, heading(column));
+    descriptor_ = open_to_write(file_, O_TRUNC | O_APPEND, file_);
+    write_line(line);
+}
+
+void TimeSeries::append(std::span<double const> values)
+{
+    if (values.size() != column_count_)
+        throw std::invalid_argument("TimeSeries::append: " + std::to_string(values.size()) + " values for " +
+                                    std::to_string(column_count_) + " columns of " + file_.string());
+    std::string line;
+    for (double const value : values)
+        add_cell(line, to_text(value));
+    write_line(line);
+}
+
+void TimeSeries::write_line(std::string const& line)
+{
+    std::string const text = line + '\n';
+    write_all(descriptor_.get(), std::as_bytes(std::span(text)), file_);
+}
+
+}  // namespace gimdem::output
