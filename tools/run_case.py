@@ -166,12 +166,11 @@ def failure(outcome: Outcome, run: Run) -> str:
     if outcome.killed:
         return f"killed at once, as asked; what was written until then is in {shown(run.folder)}"
     first = outcome.first()
-    reasons = {
-        "gimdem-server": " ".join(outcome.errors) or reason_without_words(outcome.server),
-        "gimdemFoam": openfoam.error_in(run.client_log) or reason_without_words(outcome.client),
-    }
     lines = [f"the run failed: {how_it_ended(first.name, first.code)}"]
-    lines += [f"  {name}: {reason}" for name, reason in reasons.items() if reason]
+    for child in outcome.children():
+        told = " ".join(outcome.errors) if child is outcome.server else openfoam.error_in(run.client_log)
+        reason = told or reason_without_words(child)
+        lines += [f"  {child.name}: {reason}"] if reason else []
     lines.append(f"  logs: {shown(run.server_log)}, {shown(run.client_log)}")
     return "\n".join(lines)
 

@@ -43,24 +43,28 @@ class Child:
 
 @dataclass
 class Outcome:
-    """How the pair ended."""
+    """How the pair ended. No client: the server ended, or we were stopped, before the client was started."""
 
     server: Child
-    client: Child
+    client: Child | None = None
     signal: int = 0  # that asked us to stop, 0: none
     killed: bool = False  # at the second signal
     errors: list[str] = field(default_factory=list)  # of the server
 
+    def children(self) -> list[Child]:
+        return [self.server] if self.client is None else [self.server, self.client]
+
     def first(self) -> Child:
         """Who ended first, hence where to look for the cause."""
-        pair = sorted((self.server, self.client), key=lambda child: child.ended_at or 0.0)
+        pair = sorted(self.children(), key=lambda child: child.ended_at or 0.0)
         # Both within one look: the one that failed is the cause.
-        if abs((pair[0].ended_at or 0) - (pair[1].ended_at or 0)) < 2 * POLL and pair[0].code == 0:
-            return pair[1]
+        if pair[0].code == 0 and (pair[-1].ended_at or 0) - (pair[0].ended_at or 0) < 2 * POLL:
+            return pair[-1]
         return pair[0]
 
     def good(self) -> bool:
-        return self.server.code == 0 and self.client.code == 0 and not self.killed
+        ended_well = all(child.code == 0 for child in self.children())
+        return ended_well and not self.killed and (self.client is not None or bool(self.signal))
 
 
 class StopRequest:
@@ -94,38 +98,37 @@ class Supervisor:
     ) -> Outcome:
         stop = StopRequest()
         relay = Relay()
-        children: list[Child] = []
+        outcome: Outcome | None = None
         try:
-            children.append(Child("gimdem-server", start_server(relay.child_end)))
+            outcome = Outcome(Child("gimdem-server", start_server(relay.child_end)))
             relay.child_started()
-            while children[0].alive() and not server_ready() and not stop.count:
+            while outcome.server.alive() and not server_ready() and not stop.count:
                 relay.pump(POLL)
-            children.append(Child("gimdemFoam", start_client()))
-            outcome = Outcome(children[0], children[1])
+            if outcome.server.alive() and not stop.count:
+                outcome.client = Child("gimdemFoam", start_client())
             self._watch(outcome, relay, stop)
             relay.drain()
             outcome.errors = relay.errors
             return outcome
         finally:
-            for child in children:
-                if child.alive():
-                    child.process.kill()
-                    child.process.wait()
+            for child in outcome.children() if outcome else []:
+                child.tell(signal.SIGKILL)
+                child.process.wait()
             stop.restore()
 
     def _watch(self, outcome: Outcome, relay: Relay, stop: StopRequest) -> None:
         handled = 0
         while True:
             relay.pump(POLL)
-            alive = [child for child in (outcome.server, outcome.client) if child.alive()]
+            alive = [child for child in outcome.children() if child.alive()]
             if not alive:
                 return
             if stop.count > handled:
                 handled = stop.count
                 self._obey(outcome, stop)
-            if len(alive) == 1:
-                other = outcome.client if alive[0] is outcome.server else outcome.server
-                self._hurry(alive[0], time.monotonic() - (other.ended_at or 0.0))
+            if len(alive) < len(outcome.children()):
+                ended = next(child for child in outcome.children() if child not in alive)
+                self._hurry(alive[0], time.monotonic() - (ended.ended_at or 0.0))
 
     @staticmethod
     def _obey(outcome: Outcome, stop: StopRequest) -> None:
@@ -136,8 +139,8 @@ class Supervisor:
             outcome.server.tell(signal.SIGINT)
         else:
             outcome.killed = True
-            outcome.server.tell(signal.SIGKILL)
-            outcome.client.tell(signal.SIGKILL)
+            for child in outcome.children():
+                child.tell(signal.SIGKILL)
 
     def _hurry(self, child: Child, alone_for: float) -> None:
         """A process whose peer is gone ends by itself; if not in time, it is made to."""
