@@ -20,7 +20,7 @@ class Endpoint:
 
     def __init__(self, wanted: str) -> None:
         self._folder: Path | None = None
-        self.address = self._private() if wanted == "ipc" else self._with_port(wanted)
+        self.address = self._private() if wanted == "ipc" else wanted
         if not self._folder:
             self._check_free()
 
@@ -31,15 +31,6 @@ class Endpoint:
             self._folder.rmdir()
             self._folder = Path(tempfile.mkdtemp(prefix="gimdem-", dir="/tmp"))
         return f"ipc://{self._folder}/socket"
-
-    @staticmethod
-    def _with_port(wanted: str) -> str:
-        """A free port in the place of '*'."""
-        if not (wanted.startswith("tcp://") and wanted.endswith(":*")):
-            return wanted
-        with socket.socket() as probe:
-            probe.bind((wanted[len("tcp://") : -2], 0))
-            return f"{wanted[:-1]}{probe.getsockname()[1]}"
 
     def _check_free(self) -> None:
         """Somebody else's server must not get our client."""
