@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cstdio>
 #include <functional>
-#include <optional>
 #include <string>
+#include <variant>
 
 namespace gimdem::output
 {
@@ -58,18 +58,21 @@ public:
 
 private:
     using Time = std::chrono::steady_clock::time_point;
+    using Sample = std::variant<std::monostate, ProgressSample, SettlingSample>;
 
-    bool due(double time);
+    void show_sample(Sample const& sample, double time);
+    std::string line_of(Sample const& sample) const;
     void print(std::string const& line);
 
     std::FILE* stream_;
     bool is_terminal_;
     Clock clock_;
-    std::optional<Time> phase_start_;
+    Sample last_;  ///< of this phase; none before its first
+    bool is_last_shown_ = false;
+    Time phase_start_{};
     double phase_start_time_ = 0;  ///< simulated time of the first sample [s]
-    std::optional<Time> last_print_;
-    std::function<std::string()> pending_;  ///< the line of the last sample, if it was not shown
-    std::size_t width_ = 0;                 ///< characters that the line on the terminal has now
+    Time last_print_{};
+    std::size_t width_ = 0;  ///< characters that the line on the terminal has now
 };
 
 }  // namespace gimdem::output

@@ -54,7 +54,7 @@ class SnapshotReader
 {
 public:
     /// Throws UserError where the file is absent, cut short, changed, of another version or of another kind.
-    SnapshotReader(std::filesystem::path file, std::string const& kind);
+    SnapshotReader(std::filesystem::path const& file, std::string const& kind);
     ~SnapshotReader();
     SnapshotReader(SnapshotReader const&) = delete;
     SnapshotReader& operator=(SnapshotReader const&) = delete;
@@ -74,8 +74,7 @@ public:
 
 private:
     struct Image;
-    std::filesystem::path file_;
-    std::unique_ptr<Image> image_;
+    std::unique_ptr<Image const> image_;
 };
 
 }  // namespace gimdem::output
