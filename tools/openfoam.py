@@ -11,6 +11,7 @@ from console import UserError, shown, tail_of
 from process import run_logged
 
 PACKAGED = Path("/usr/share/openfoam")  # of Debian's package
+OWN_WORDS = re.compile(r"^gimdemFoam: (.*(?:\n(?!\s*$).*)*)", re.MULTILINE)  # to the next empty line
 FATAL = re.compile(r"^--> FOAM FATAL (IO )?ERROR", re.MULTILINE)
 
 
@@ -37,8 +38,11 @@ def make_mesh(folder: Path) -> str:
 
 
 def error_in(log: Path) -> str:
-    """The error block of an OpenFOAM log in one line, empty if there is none."""
+    """The last error of an OpenFOAM program in one line, empty if there is none: its own line, or a fatal block."""
     text = tail_of(log, 200)
+    own = OWN_WORDS.findall(text)
+    if own:
+        return own[-1].strip()
     start = FATAL.search(text)
     if not start:
         return ""

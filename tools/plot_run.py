@@ -44,7 +44,7 @@ class Panel:
 
 PANELS = (
     Panel("pressure", "pressure_", "gauge pressure", "Pa"),
-    Panel("void_fraction", "void_fraction_", "plane-averaged void fraction", "1"),
+    Panel("void_fraction", "void_fraction_", "void fraction (plane mean)", "1"),
     Panel("bed_height", "bed_height", "bed height", "mm", 1e3),
     Panel("pressure_drop", "pressure_drop", "pressure drop", "Pa"),
 )
@@ -105,7 +105,7 @@ def draw_reference(axes: plt.Axes, panel: Panel, value: dict | None, colour: str
     if not value:
         return
     mean, spread = panel.scale * value["mean"], panel.scale * value.get("deviation", 0)
-    axes.axhline(mean, color=colour, linestyle="--", linewidth=0.8, label=value["source"])
+    axes.axhline(mean, color=colour, linestyle="--", linewidth=0.8, label=f"{value['source']}: mean ± deviation")
     axes.axhspan(mean - spread, mean + spread, color=colour, alpha=0.1, linewidth=0)
 
 

@@ -8,6 +8,8 @@ from pathlib import Path
 from case_folder import CaseDescription
 from console import UserError, shown
 
+REFERENCE = "reference.json"  # published means and deviations, drawn into the plots
+
 
 def make_run_folder(case: CaseDescription, output: str | None) -> Path:
     """A new folder CASE/runs/NNNN, or `output`, which must be new or empty."""
@@ -44,6 +46,8 @@ def next_numbered(parent: Path) -> Path:
 def copy_case(case: CaseDescription, folder: Path) -> None:
     """What the run reads, as it was when it started."""
     shutil.copy2(case.file, folder / "case.toml")
+    if (case.folder / REFERENCE).exists():
+        shutil.copy2(case.folder / REFERENCE, folder / REFERENCE)
     for name in ("0", "constant", "system"):
         shutil.copytree(case.folder / name, folder / name)
     if case.grid:
