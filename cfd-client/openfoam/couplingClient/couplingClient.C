@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/*---------------------------------------------------------------------------*\
+    gimdem, client-server CFD-DEM co-simulation
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty; LICENSES/ has the text.
+\*---------------------------------------------------------------------------*/
+
+#include "couplingClient.H"
+#include "polyMeshArrays.H"
+#include "fvc.H"
+
+using namespace gimdem::coupling;
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- The components of a field, one after the other
+template<class Type>
+static Span<double const> components(const Field<Type>& f)
+{
+    static_assert(std::is_same<scalar, double>::value, "needs WM_DP");
+
+    return
+    {
+        reinterpret_cast<double const*>(f.cdata()),
+        std::size_t(f.size())*pTraits<Type>::nComponents
+    };
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+ClientOptions Foam::couplingClient::options
+(
+    const Time& runTime,
+    const argList& args
+)
+{
+    const IOdictionary dict
+    (
+        IOobject
+        (
+            "couplingProperties",
+            runTime.constant(),
+            runTime,
+            args.found("endpoint")
+          ? IOobject::READ_IF_PRESENT
+          : IOobject::MUST_READ,
+            IOobject::NO_WRITE,
+            false
+        )
+    );
+
+    ClientOptions o;
+    o.name = "gimdemFoam";
+    o.endpoint =
+        args.found("endpoint")
+      ? args.opt<string>("endpoint")
+      : dict.get<string>("endpoint");
+    o.timeout = dict.getOrDefault<scalar>("timeout", o.timeout);
+    o.connect_time = dict.getOrDefault<scalar>("connectTime", o.connect_time);
+    o.step_time = dict.getOrDefault<scalar>("stepTime", o.step_time);
+
+    const word schedule =
+        args.found("schedule")
+      ? args.opt<word>("schedule")
+      : dict.getOrDefault<word>("schedule", "server");
+
+    if (schedule == "serial")
+    {
+        o.schedule = Schedule::serial;
+    }
+    else if (schedule == "overlapped")
+    {
+        o.schedule = Schedule::overlapped;
+    }
+    else if (schedule != "server")
+    {
+        FatalErrorInFunction
+            << "schedule " << schedule << " of constant/couplingProperties"
+            << " or the command line is unknown; say server, serial or"
+            << " overlapped"
+            << exit(FatalError);
+    }
+
+    return o;
+}
+
+
+void Foam::couplingClient::copy
+(
+    const SolidFields& solid,
+    volScalarField& alpha,
+    volScalarField& K,
+    volVectorField& M
+)
+{
+    scalarField& a = alpha.primitiveFieldRef();
+    scalarField& k = K.primitiveFieldRef();
+    vectorField& m = M.primitiveFieldRef();
+
+    forAll(a, celli)
+    {
+        a[celli] = solid.void_fraction[celli];
+
+        if (!(a[celli] > 0 && a[celli] < 1 + 1e-6))
+        {
+            FatalErrorInFunction
+                << "the server sent void fraction " << a[celli] << " for cell "
+                << celli << " at " << alpha.mesh().C()[celli] << " m (the fluid"
+                << " needs 0 < alpha <= 1); check the server's mapping"
+                << exit(FatalError);
+        }
+    }
+
+    if (solid.drag_coefficient.empty())
+    {
+        k = 0;
+        m = Zero;
+    }
+    else
+    {
+        forAll(k, celli)
+        {
+            k[celli] = solid.drag_coefficient[celli];
+            for (direction d = 0; d < vector::nComponents; ++d)
+            {
+                m[celli][d] = solid.drag_momentum[3*celli + d];
+            }
+        }
+    }
+
+    alpha.correctBoundaryConditions();
+    K.correctBoundaryConditions();
+    M.correctBoundaryConditions();
+}
+
+
+// * * * * * * * * * * * * * Static Member Functions * * * * * * * * * * * * //
+
+void Foam::couplingClient::addOptions()
+{
+    argList::addOption
+    (
+        "endpoint",
+        "address",
+        "of the server, e.g. tcp://127.0.0.1:5570"
+        " (overrides constant/couplingProperties)"
+    );
+    argList::addOption
+    (
+        "schedule",
+        "word",
+        "server, serial or overlapped (overrides constant/couplingProperties)"
+    );
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::couplingClient::couplingClient(const Time& runTime, const argList& args)
+:
+    client_(options(runTime, args))
+{}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::couplingClient::connect
+(
+    const dimensionedScalar& rho,
+    const dimensionedScalar& mu
+)
+{
+    FluidProperties fluid;
+    fluid.density = rho.value();
+    fluid.viscosity = mu.value();
+
+    const Welcome& welcome = client_.connect(fluid);
+
+    Info<< "Connected to " << welcome.server << ": " << welcome.title << nl
+        << "    schedule "
+        << (welcome.schedule == Schedule::serial ? "serial" : "overlapped")
+        << ", end time " << welcome.end_time << " s" << nl << endl;
+}
+
+
+Foam::scalar Foam::couplingClient::endTime() const
+{
+    return client_.welcome().end_time;
+}
+
+
+void Foam::couplingClient::sendMesh
+(
+    const polyMesh& mesh,
+    volScalarField& alpha,
+    volScalarField& K,
+    volVectorField& M
+)
+{
+    client_.send_mesh(polyMeshArrays(mesh).view());
+    copy(client_.solid(), alpha, K, M);
+}
+
+
+void Foam::couplingClient::setFluid
+(
+    const volVectorField& U,
+    const volTensorField& gradU,
+    const volScalarField& p,
+    const volScalarField& alpha
+)
+{
+    const Welcome& welcome = client_.welcome();
+
+    fluid_ = FluidFields();
+
+    if (welcome.needs_field(field::velocity))
+    {
+        fluid_.velocity = components(U.primitiveField());
+    }
+    if (welcome.needs_field(field::velocity_gradient))
+    {
+        fluid_.velocity_gradient = components(gradU.primitiveField());
+    }
+    if (welcome.needs_field(field::pressure))
+    {
+        fluid_.pressure = components(p.primitiveField());
+    }
+    if (welcome.needs_field(field::pressure_gradient))
+    {
+        gradP_ = fvc::grad(p)().primitiveField();
+        fluid_.pressure_gradient = components(gradP_);
+    }
+    if (welcome.needs_field(field::void_fraction_gradient))
+    {
+        // Eqs. 23-25 of the paper: the gradient of alpha as a fluid scalar
+        gradAlpha_ = fvc::grad(alpha)().primitiveField();
+        fluid_.void_fraction_gradient = components(gradAlpha_);
+    }
+
+    monitors_.clear();
+}
+
+
+void Foam::couplingClient::monitor
+(
+    const char* name,
+    const scalar value,
+    const char* unit
+)
+{
+    monitors_.push_back({name, value, unit});
+}
+
+
+void Foam::couplingClient::beginStep
+(
+    const scalar t,
+    const scalar deltaT,
+    volScalarField& alpha,
+    volScalarField& K,
+    volVectorField& M
+)
+{
+    ++step_.number;
+    step_.time = t;
+    step_.dt = deltaT;
+
+    copy(client_.begin_step(step_, fluid_, monitors_), alpha, K, M);
+}
+
+
+void Foam::couplingClient::endStep(const scalar compute, const scalar output)
+{
+    Timings timings;
+    timings.compute = compute;
+    timings.output = output;
+
+    client_.end_step(timings);
+}
+
+
+bool Foam::couplingClient::stopRequested() const
+{
+    if (client_.stop_request())
+    {
+        Info<< "The server asks for an end: " << *client_.stop_request()
+            << nl << endl;
+    }
+
+    return bool(client_.stop_request());
+}
+
+
+void Foam::couplingClient::finish(const string& reason)
+{
+    client_.finish(reason);
+}
+
+
+void Foam::couplingClient::abort(const string& reason)
+{
+    client_.abort(reason);
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/*---------------------------------------------------------------------------*\
+    gimdem, client-server CFD-DEM co-simulation
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty; LICENSES/ has the text.
+
+Application
+    gimdemFoam
+
+Description
+    Gas or liquid around moving particles: the volume-averaged Navier-Stokes
+    equations (model A) of one incompressible Newtonian fluid. Void fraction
+    and drag come from a particle server, the fluid's fields go there.
+
+        d(alpha)/dt + div(alpha U) = 0
+        d(alpha U)/dt + div(alpha U U)
+            = div(alpha tau)/rho - alpha (grad p/rho - g) + (M - K U)/rho
+        tau = mu (grad U + grad U^T - 2/3 div U I)
+
+    alpha, K and M are those of the server, at the old and the new time; -K U
+    is implicit. PIMPLE; halfCells.H tells how pressure, drag and body forces
+    meet on the faces.
+
+\*---------------------------------------------------------------------------*/
+
+#include "fvCFD.H"
+#include "pimpleControl.H"
+#include "clockTime.H"
+#include "constrainPressure.H"
+#include "extrapolatedCalculatedFvPatchFields.H"
+#include "fixedFluxPressureFvPatchScalarField.H"
+#include "sigFpe.H"
+
+#include "couplingClient.H"
+#include "halfCells.H"
+
+#include <csignal>
+#include <memory>
+
+// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
+
+//- The whole simulation. Throws on any fault
+static void simulate
+(
+    const argList& args,
+    std::unique_ptr<couplingClient>& server
+)
+{
+    #include "createTime.H"
+
+    // Ctrl-C is the server's: it asks for an orderly end
+    std::signal(SIGINT, SIG_IGN);
+
+    server.reset(new couplingClient(runTime, args));
+    couplingClient& particles = *server;
+
+    #include "createMesh.H"
+    #include "createControl.H"
+    #include "createTimeControls.H"
+    #include "createFields.H"
+
+    particles.connect(rho, mu);
+    runTime.setEndTime(particles.endTime());
+    particles.sendMesh(mesh, alpha, K, M);
+
+    #include "initialFlux.H"
+    #include "setFluid.H"
+
+    Info<< "Starting time loop\n" << endl;
+
+    while (runTime.run() && !particles.stopRequested())
+    {
+        #include "readTimeControls.H"
+        #include "setTimeStep.H"
+
+        const scalar t = runTime.value();
+        const scalar deltaT = runTime.deltaTValue();
+        ++runTime;
+
+        particles.beginStep(t, deltaT, alpha, K, M);
+        clockTime clock;
+
+        #include "updateSolid.H"
+
+        while (pimple.loop())
+        {
+            #include "UEqn.H"
+
+            while (pimple.correct())
+            {
+                #include "pEqn.H"
+            }
+        }
+
+        #include "checkState.H"
+        #include "setFluid.H"
+
+        const scalar compute = clock.timeIncrement();
+        runTime.write();
+        particles.endStep(compute, clock.timeIncrement());
+
+        #include "reportStep.H"
+    }
+
+    if (!runTime.writeTime())
+    {
+        runTime.writeNow();
+    }
+    particles.finish
+    (
+        particles.stopRequested() ? "stopped as asked" : "end time reached"
+    );
+
+    Info<< "End\n" << endl;
+}
+
+
+//- The words of a fatal error, without the frame that OpenFOAM prints round them
+static string reasonOf(const error& e)
+{
+    string reason = e.message();
+
+    if (isA<IOerror>(e))
+    {
+        const auto& ioe = static_cast<const IOerror&>(e);
+        reason += " [" + ioe.ioFileName() + ", line "
+          + Foam::name(ioe.ioStartLineNumber()) + ']';
+    }
+
+    return reason;
+}
+
+
+int main(int argc, char *argv[])
+{
+    for (int i = 1; i < argc; ++i)
+    {
+        if (std::string(argv[i]) == "-parallel")
+        {
+            std::cerr
+                << "gimdemFoam: -parallel is not possible yet (the mesh is sent"
+                << " by one process); run without it" << std::endl;
+            return 1;
+        }
+    }
+
+    argList::noParallel();
+    argList::addNote
+    (
+        "The fluid of a coupled run: volume-averaged Navier-Stokes equations,"
+        " particles by a gimdem server."
+    );
+    argList::addBoolOption("verbose", "print each linear solver's residuals");
+    couplingClient::addOptions();
+
+    #include "setRootCase.H"
+
+    // A NaN is found by checkState.H and named; a fault is told in words and to
+    // the server, without a stack trace
+    sigFpe::unset();
+    FatalError.throwExceptions();
+    FatalIOError.throwExceptions();
+    SolverPerformance<scalar>::debug = args.found("verbose");
+    SolverPerformance<vector>::debug = args.found("verbose");
+
+    std::unique_ptr<couplingClient> server;
+    string reason;
+
+    try
+    {
+        simulate(args, server);
+        return 0;
+    }
+    catch (const error& e)
+    {
+        reason = reasonOf(e);
+    }
+    catch (const std::exception& e)
+    {
+        reason = e.what();
+    }
+
+    if (server)
+    {
+        server->abort(reason);
+    }
+    Info<< flush;
+    std::cerr << "gimdemFoam: " << reason << std::endl;
+
+    return 1;
+}
+
+
+// ************************************************************************* //
