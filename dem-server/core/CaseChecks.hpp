@@ -2,6 +2,7 @@
 /// What has to hold between settings of a case.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include <toml++/toml.h>
@@ -23,6 +24,13 @@ struct Document
     /// `file:line` of the setting, or of the nearest section around it that the document has.
     std::string at(std::string path) const;
 };
+
+/// Path of a key of the entry `index` of a list of sections: "insertion[0].mass".
+std::string entry(std::string const& list, std::size_t index, std::string const& key);
+
+/// Throw UserError where [[insertion]] number `index` misses what its arrangement needs, has what would be without
+/// effect, or would insert overlapping particles.
+void check_insertion(InsertionSettings const& insertion, std::size_t index, Document const& document);
 
 /// Throw UserError where settings contradict each other or name what does not exist.
 void check_case(Case const& input, Document const& document);
