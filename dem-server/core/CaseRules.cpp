@@ -59,7 +59,7 @@ Rule one_of(std::vector<std::string> words)
 
 Rule not_empty()
 {
-    return {"not empty", {}, [](std::string const& text) { return !text.empty(); }, {}};
+    return {"a non-empty text", {}, [](std::string const& text) { return !text.empty(); }, {}};
 }
 
 namespace
