@@ -28,11 +28,11 @@ namespace gimdem::coupling
 
 struct ServerOptions
 {
-    std::string endpoint;        ///< "ipc:///path/socket", "tcp://127.0.0.1:port" or "tcp://127.0.0.1:*" (any free port)
-    std::string name;            ///< name and version, told to the client
-    double timeout = 30;         ///< a client silent for this long is dead [s]
-    double connect_time = 120;   ///< how long to wait for a client [s]
-    double step_time = 3600;     ///< longest wait for the next message of a live client [s]
+    std::string endpoint;       ///< "ipc:///path/socket", "tcp://127.0.0.1:port" or "tcp://127.0.0.1:*" (any free port)
+    std::string name;           ///< name and version, told to the client
+    double timeout = 30;        ///< a client silent for this long is dead [s]
+    double connect_time = 120;  ///< how long to wait for a client [s]
+    double step_time = 3600;    ///< longest wait for the next message of a live client [s]
 };
 
 /// What the case file fixes and the client is told.
@@ -49,8 +49,9 @@ struct ClientInfo
 {
     std::string name;
     FluidProperties fluid;
-    std::vector<std::string> wants;  ///< solid fields the client asks for
-    bool wants_field(std::string const& name) const;
+    std::vector<std::string> wants;    ///< solid fields the client asks for
+    std::optional<Schedule> schedule;  ///< the client's wish, which is then in force; empty: the server's terms are
+    bool wants_field(std::string const& field_name) const;
 };
 
 /// A fluid state as received; spans live until the next receive_fluid.
@@ -59,7 +60,7 @@ struct FluidState
     Step step;
     FluidFields fields;
     std::vector<Monitor> monitors;
-    Timings previous;   ///< how long the client's previous step took
+    Timings previous;     ///< how long the client's previous step took
     double exchange = 0;  ///< the client's sum of exchange time so far [s]
     double waiting = 0;   ///< the client's sum of waiting so far [s]
 };

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "message/Codec.hpp"
+
+#include <set>
+#include <string>
+#include <utility>
+
+#include "gimdem/coupling/Types.hpp"
+#include "message/Arrays.hpp"
+
+namespace gimdem::coupling::message
+{
+namespace
+{
+
+/// Patches are the only long list in an envelope; a mebibyte holds thousands of them.
+std::size_t constexpr max_envelope_bytes = std::size_t{1} << 20;
+
+std::string version_text(unsigned major, unsigned minor)
+{
+    return std::to_string(major) + "." + std::to_string(minor);
+}
+
+void check_version(v1::Envelope const& envelope)
+{
+    if (envelope.protocol_major() == static_cast<unsigned>(protocol_major)) return;
+    std::string const reason = envelope.has_error() ? "; it said: " + envelope.error().reason() : "";
+    throw CouplingError(Fault::version, "the peer speaks protocol " +
+                                            version_text(envelope.protocol_major(), envelope.protocol_minor()) +
+                                            " and this side speaks " + version_text(protocol_major, protocol_minor) +
+                                            " (the first number must be the same); update the older side" + reason);
+}
+
+void check_array(v1::ArrayHeader const& header, transport::Frame& frame)
+{
+    std::string const who = "array \"" + header.name() + "\"";
+    std::size_t const size = element_size(header.type());
+    if (size == 0) refuse(who + " has an unknown element type");
+    if (!header.dense()) refuse(who + " is sparse (protocol 1.0 has dense arrays only)");
+    if (header.components() < 1 || header.components() > max_components)
+        refuse(who + " has " + std::to_string(header.components()) + " components (1 to " +
+               std::to_string(max_components) + ")");
+
+    std::size_t const row_bytes = size * header.components();
+    bool const fits = header.count() <= transport::max_frame_bytes / row_bytes;
+    if (!fits || header.count() * row_bytes != frame.size())
+        refuse(who + " has " + std::to_string(frame.size()) + " bytes, but its header promises " +
+               std::to_string(header.count()) + " rows of " + std::to_string(row_bytes) +
+               " bytes (a truncated or padded frame)");
+    align(frame, size);
+}
+
+void check_arrays(Message& message)
+{
+    auto const& headers = message.envelope.arrays();
+    if (static_cast<std::size_t>(headers.size()) != message.arrays.size())
+        refuse(describe(message) + " has " + std::to_string(message.arrays.size()) +
+               " array frames, but its envelope describes " + std::to_string(headers.size()));
+
+    std::set<std::string> names;
+    for (int k = 0; k < headers.size(); ++k)
+    {
+        check_name(headers[k].name(), "the name of an array");
+        if (!names.insert(headers[k].name()).second) refuse("array \"" + headers[k].name() + "\" comes twice");
+        check_array(headers[k], message.arrays[static_cast<std::size_t>(k)]);
+    }
+}
+
+/// The same limits that the receiver has, so that our own caller hears of them first.
+void check_before_sending(Message const& message)
+{
+    if (message.envelope.ByteSizeLong() > max_envelope_bytes)
+        throw CouplingError(Fault::user, describe(message) +
+                                             " is too large (an envelope holds 1 MiB); use fewer patches, "
+                                             "monitors or shorter names");
+    for (int k = 0; k < message.envelope.arrays_size(); ++k)
+        if (message.arrays[static_cast<std::size_t>(k)].size() > transport::max_frame_bytes)
+            throw CouplingError(Fault::user, "array \"" + message.envelope.arrays(k).name() +
+                                                 "\" is too large (a frame holds 4 GiB); use a smaller mesh");
+}
+
+bool may_have_arrays(Kind kind)
+{
+    return kind == Kind::kMesh || kind == Kind::kFluidState || kind == Kind::kSolidState;
+}
+
+}  // namespace
+
+transport::Frames encode(Message message)
+{
+    message.envelope.set_protocol_major(protocol_major);
+    message.envelope.set_protocol_minor(protocol_minor);
+    check_before_sending(message);
+
+    transport::Frames frames;
+    frames.reserve(1 + message.arrays.size());
+    frames.emplace_back(message.envelope.ByteSizeLong());
+    message.envelope.SerializeToArray(frames.front().data(), static_cast<int>(frames.front().size()));
+    for (transport::Frame& array : message.arrays)
+        frames.push_back(std::move(array));
+    return frames;
+}
+
+Kind peek_kind(transport::Frame const& envelope)
+{
+    v1::Envelope read;
+    bool const readable = envelope.size() <= max_envelope_bytes &&
+                          read.ParseFromArray(envelope.data(), static_cast<int>(envelope.size()));
+    return readable ? read.kind_case() : Kind::KIND_NOT_SET;
+}
+
+Message decode(transport::Frames frames)
+{
+    if (frames.empty()) refuse("a message without an envelope");
+    if (frames.size() > transport::max_frames)
+        refuse("a message of more than " + std::to_string(transport::max_frames) + " frames");
+
+    Message message;
+    transport::Frame const& first = frames.front();
+    if (first.size() > max_envelope_bytes)
+        refuse("an envelope of " + std::to_string(first.size()) + " bytes (too large)");
+    if (!message.envelope.ParseFromArray(first.data(), static_cast<int>(first.size())))
+        refuse("an envelope of " + std::to_string(first.size()) + " bytes that cannot be read");
+    check_version(message.envelope);
+    if (message.kind() == Kind::KIND_NOT_SET) refuse("an envelope without a message in it");
+    if (message.envelope.iteration() != 0)
+        refuse("iteration " + std::to_string(message.envelope.iteration()) + " (protocol 1.0 has only 0)");
+
+    for (std::size_t k = 1; k < frames.size(); ++k)
+        message.arrays.push_back(std::move(frames[k]));
+    if (!may_have_arrays(message.kind()) && !message.arrays.empty())
+        refuse(kind_name(message.kind()) + " with array frames (it has none)");
+    check_arrays(message);
+    return message;
+}
+
+}  // namespace gimdem::coupling::message

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "message/Fields.hpp"
+
+#include <algorithm>
+
+#include "message/Arrays.hpp"
+#include "message/Finite.hpp"
+
+namespace gimdem::coupling::message
+{
+namespace
+{
+
+template <class Table>
+std::string names_of(Table const& table)
+{
+    std::string names;
+    for (auto const& entry : table)
+        names += (names.empty() ? "" : ", ") + std::string(entry.name);
+    return names;
+}
+
+template <class Table>
+void check_names(std::vector<std::string> const& names, Table const& table, std::string const& kind, Fault fault)
+{
+    for (std::string const& name : names)
+    {
+        bool const known =
+            std::any_of(table.begin(), table.end(), [&](auto const& entry) { return name == entry.name; });
+        if (!known)
+            throw CouplingError(fault, "unknown " + kind + " field \"" + name.substr(0, max_name_bytes) +
+                                           "\" (there are " + names_of(table) + "); check its spelling");
+        if (std::count(names.begin(), names.end(), name) > 1)
+            throw CouplingError(fault, kind + " field \"" + name + "\" is asked for twice; name it once");
+    }
+}
+
+template <class Fields, class Table>
+FieldChoice<Fields> choose(std::vector<std::string> const& names, Table const& table)
+{
+    FieldChoice<Fields> choice;
+    for (auto const& entry : table)
+        if (std::find(names.begin(), names.end(), entry.name) != names.end()) choice.push_back(entry);
+    return choice;
+}
+
+/// "velocity has nan in cell 12".
+template <class Fields>
+std::string not_finite_text(FieldEntry<Fields> const& entry, Span<double const> values, std::size_t i)
+{
+    return "field \"" + std::string(entry.name) + "\" has " + std::to_string(values[i]) + " in cell " +
+           std::to_string(i / entry.components);
+}
+
+template <class Fields>
+void check_before_sending(FieldEntry<Fields> const& entry, Span<double const> values, std::size_t cell_count)
+{
+    std::size_t const size = cell_count * entry.components;
+    if (values.size() != size)
+        throw CouplingError(Fault::user, "field \"" + std::string(entry.name) + "\" has " +
+                                             std::to_string(values.size()) + " numbers (the mesh has " +
+                                             std::to_string(cell_count) + " cells, " +
+                                             std::to_string(entry.components) + " each, so " + std::to_string(size) +
+                                             "); pass the whole field, the peer needs it");
+    if (auto const i = first_not_finite(values))
+        throw CouplingError(
+            Fault::user, not_finite_text(entry, values, *i) + " (the solution has diverged); try a smaller time step");
+}
+
+}  // namespace
+
+FieldChoice<FluidFields> choose_fluid_fields(std::vector<std::string> const& names, Fault fault)
+{
+    check_names(names, fluid_fields, "fluid", fault);
+    return choose<FluidFields>(names, fluid_fields);
+}
+
+FieldChoice<SolidFields> choose_solid_fields(std::vector<std::string> const& names, Fault fault)
+{
+    check_names(names, solid_fields, "solid", fault);
+    return choose<SolidFields>(names, solid_fields);
+}
+
+template <class Fields>
+void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count)
+{
+    for (auto const& entry : choice)
+    {
+        Span<double const> const values = fields.*entry.values;
+        check_before_sending(entry, values, cell_count);
+        append_array(message, entry.name, entry.components, values);
+    }
+}
+
+template <class Fields>
+Fields view_fields(Message const& message, FieldChoice<Fields> const& choice, std::size_t cell_count)
+{
+    Fields fields;
+    for (auto const& entry : choice)
+    {
+        Span<double const> const values = view_array<double>(message, entry.name, entry.components, cell_count);
+        if (auto const i = first_not_finite(values))
+            refuse(describe(message) + ": " + not_finite_text(entry, values, *i));
+        fields.*entry.values = values;
+    }
+    check_array_count(message, choice.size());
+    return fields;
+}
+
+template void append_fields(Message&, FieldChoice<FluidFields> const&, FluidFields const&, std::size_t);
+template void append_fields(Message&, FieldChoice<SolidFields> const&, SolidFields const&, std::size_t);
+template FluidFields view_fields(Message const&, FieldChoice<FluidFields> const&, std::size_t);
+template SolidFields view_fields(Message const&, FieldChoice<SolidFields> const&, std::size_t);
+
+}  // namespace gimdem::coupling::message

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The cell fields that travel: which there are, which of them this run sends, and their checks.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "gimdem/coupling/Types.hpp"
+#include "message/Message.hpp"
+
+namespace gimdem::coupling::message
+{
+
+/// One cell field: its name on the wire, numbers per cell, and its place in FluidFields or SolidFields.
+template <class Fields>
+struct FieldEntry
+{
+    char const* name;
+    unsigned components;
+    Span<double const> Fields::*values;
+};
+
+inline constexpr std::array<FieldEntry<FluidFields>, 5> fluid_fields{
+    {{field::velocity, 3, &FluidFields::velocity},
+     {field::velocity_gradient, 9, &FluidFields::velocity_gradient},
+     {field::pressure_gradient, 3, &FluidFields::pressure_gradient},
+     {field::void_fraction_gradient, 3, &FluidFields::void_fraction_gradient},
+     {field::pressure, 1, &FluidFields::pressure}}};
+
+inline constexpr std::array<FieldEntry<SolidFields>, 4> solid_fields{
+    {{field::void_fraction, 1, &SolidFields::void_fraction},
+     {field::momentum_source, 3, &SolidFields::momentum_source},
+     {field::drag_coefficient, 1, &SolidFields::drag_coefficient},
+     {field::drag_momentum, 3, &SolidFields::drag_momentum}}};
+
+/// The fields that a session sends in one direction.
+template <class Fields>
+using FieldChoice = std::vector<FieldEntry<Fields>>;
+
+/// The fields of those names, in the order of the table. CouplingError(fault) if a name is unknown or comes twice.
+FieldChoice<FluidFields> choose_fluid_fields(std::vector<std::string> const& names, Fault fault);
+FieldChoice<SolidFields> choose_solid_fields(std::vector<std::string> const& names, Fault fault);
+
+/// Adds the chosen fields to a message. Fault::user if one has not cell_count rows, or holds a NaN or infinity.
+template <class Fields>
+void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count);
+
+/// The chosen fields, in place; the others are empty. Fault::protocol if the message has others than the chosen ones,
+/// or the wrong sizes, or a NaN or infinity.
+template <class Fields>
+Fields view_fields(Message const& message, FieldChoice<Fields> const& choice, std::size_t cell_count);
+
+}  // namespace gimdem::coupling::message

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// FluidState and SolidState.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "gimdem/coupling/Server.hpp"
+#include "gimdem/coupling/Types.hpp"
+#include "message/Fields.hpp"
+#include "message/Message.hpp"
+
+namespace gimdem::coupling::message
+{
+
+/// The server's answer to one step.
+struct SolidState
+{
+    SolidFields fields;
+    Timings timings;
+    double busy_time = 0;  ///< from the arrival of the fluid to the answer, without unpacking [s]
+    std::optional<std::string> stop_request;
+};
+
+/// What both sides agreed on: which fields travel, on how many cells.
+struct Terms
+{
+    FieldChoice<FluidFields> fluid;
+    FieldChoice<SolidFields> solid;
+    std::size_t cell_count = 0;
+};
+
+/// Fault::user if a field or number cannot be sent.
+Message pack(FluidState const& state, Terms const& terms);
+Message pack(SolidState const& state, Terms const& terms);
+
+/// Fault::protocol if anything is missing, has the wrong size, or is not finite. Spans live as long as the message.
+FluidState unpack_fluid_state(Message const& message, Terms const& terms);
+SolidState unpack_solid_state(Message const& message, Terms const& terms);
+
+}  // namespace gimdem::coupling::message

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gimdem/coupling/Client.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "message/Greeting.hpp"
+#include "message/MeshMessage.hpp"
+#include "message/StepMessages.hpp"
+#include "session/ExchangeClock.hpp"
+#include "session/Options.hpp"
+#include "session/Session.hpp"
+
+namespace gimdem::coupling
+{
+
+using session::Event;
+using session::State;
+using transport::Clock;
+using transport::ticks;
+using transport::Time;
+
+bool Welcome::needs_field(std::string const& name) const
+{
+    return std::find(needs.begin(), needs.end(), name) != needs.end();
+}
+
+struct Client::Impl
+{
+    explicit Impl(ClientOptions given);
+
+    void connect(FluidProperties const& fluid);
+    void send_mesh(MeshView const& mesh);
+    void begin_step(Step const& step, FluidFields const& fluid, std::vector<Monitor> const& monitors);
+    void end_step(Timings const& timings);
+    void finish(std::string const& reason);
+
+    session::Letter receive(std::string const& awaited);
+    Time take_solid();
+    bool is_serial() const { return welcome.schedule == Schedule::serial; }
+
+    /// Runs a call; a fault that leaves the session alive is remembered, in case the program ends because of it.
+    template <class Body>
+    void guard(Body body)
+    {
+        try
+        {
+            body();
+            clock.set_bytes(session.bytes());
+        }
+        catch (CouplingError const& error)
+        {
+            session.note(error.what());
+            throw;
+        }
+    }
+
+    ClientOptions options;
+    Welcome welcome;
+    message::Terms terms;
+    message::Message solid_message;  ///< holds the bytes that the spans of solid show
+    message::SolidState solid;
+    Timings previous;  ///< of the last fluid step
+    std::int64_t step = 0;
+    session::ExchangeClock clock;
+    session::Session session;
+};
+
+Client::Impl::Impl(ClientOptions given)
+    : options(std::move(given)), session(transport::Role::client, options.name, options.timeout)
+{
+    session::require_name(options.name, "ClientOptions.name");
+    session::require_seconds(options.timeout, message::min_timeout, "ClientOptions.timeout");
+    session::require_seconds(options.connect_time, 0, "ClientOptions.connect_time");
+    session::require_seconds(options.step_time, message::min_timeout, "ClientOptions.step_time");
+    if (options.wants.empty()) options.wants = {field::void_fraction, field::drag_coefficient, field::drag_momentum};
+    terms.solid = message::choose_solid_fields(options.wants, Fault::user);
+}
+
+void Client::Impl::connect(FluidProperties const& fluid)
+{
+    session.require(Event::connect);
+    session.open(transport::Socket::connect(options.endpoint));
+    session.advance(Event::connect);
+    session.send(message::pack(message::Hello{options.name, fluid, options.wants, options.schedule, options.timeout}));
+
+    if (!session.wait_for_contact(Clock::now() + ticks(options.connect_time)))
+        session.fail(Fault::endpoint,
+                     "no server has answered at " + options.endpoint + " within " +
+                         std::to_string(options.connect_time) +
+                         " s (none runs there, or it is not a gimdem server); start gimdem-server with "
+                         "the same endpoint");
+    session::Letter const letter = receive("Welcome");
+    welcome = session.read([&] { return message::unpack_welcome(letter.message); });
+    session.set_peer_name(welcome.server);
+    terms.fluid = session.read([&] { return message::choose_fluid_fields(welcome.needs, Fault::protocol); });
+}
+
+void Client::Impl::send_mesh(MeshView const& mesh)
+{
+    session.require(Event::send_mesh);
+    message::Message message = message::pack(mesh);
+    session.look_for_trouble("the mesh of its program");
+    session.advance(Event::send_mesh);
+    session.send(std::move(message));
+
+    session::Letter const letter = receive("MeshAccepted");
+    session.read([&] { message::check_mesh_accepted(letter.message, mesh.cell_count); });
+    terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
+    take_solid();
+}
+
+void Client::Impl::begin_step(Step const& next, FluidFields const& fluid, std::vector<Monitor> const& monitors)
+{
+    Time const entered = Clock::now();
+    Event const call = is_serial() ? Event::begin_serial_step : Event::begin_overlapped_step;
+    session.require(call);
+
+    ExchangeTimes const& so_far = clock.times();
+    message::Message message =
+        message::pack(FluidState{next, fluid, monitors, previous, so_far.exchange, so_far.waiting}, terms);
+    session.look_for_trouble("the fluid of its program");
+    step = next.number;
+    session.set_step(step);
+    session.advance(call);
+    session.send(std::move(message));
+    clock.sent(entered, Clock::now());
+
+    if (!is_serial()) return;
+    take_solid();
+    clock.answered_serial(Clock::now(), solid.busy_time);
+}
+
+void Client::Impl::end_step(Timings const& timings)
+{
+    Time const entered = Clock::now();
+    session.require(Event::end_step);
+    session.advance(Event::end_step);
+    previous = timings;
+
+    if (is_serial()) return;
+    Time const arrival = take_solid();
+    clock.answered_overlapped(entered, arrival, Clock::now(), solid.busy_time);
+}
+
+void Client::Impl::finish(std::string const& reason)
+{
+    session.require(Event::finish);
+    bool const greeted = session.state() != State::created && session.state() != State::finished;
+    if (greeted) session.send(message::pack_goodbye(reason));
+    session.advance(Event::finish);
+    session.close();
+}
+
+session::Letter Client::Impl::receive(std::string const& awaited)
+{
+    return session.receive(awaited, Clock::now() + ticks(options.step_time), options.step_time);
+}
+
+/// Receives the solid of the current step; returns when it arrived.
+Time Client::Impl::take_solid()
+{
+    session::Letter letter = receive("SolidState of step " + std::to_string(step));
+    if (letter.message.envelope.step() != step)
+        session.fail(Fault::protocol, message::describe(letter.message) + " from " + session.peer_name() +
+                                          " is out of order (it should answer step " + std::to_string(step) +
+                                          "); the two programs do not fit together, see docs/protocol.md");
+    solid = session.read([&] { return message::unpack_solid_state(letter.message, terms); });
+    solid_message = std::move(letter.message);
+    return letter.arrival;
+}
+
+Client::Client(ClientOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
+Client::~Client() = default;
+Client::Client(Client&&) noexcept = default;
+Client& Client::operator=(Client&&) noexcept = default;
+
+Welcome const& Client::connect(FluidProperties const& fluid)
+{
+    impl_->guard([&] { impl_->connect(fluid); });
+    return impl_->welcome;
+}
+
+void Client::send_mesh(MeshView const& mesh)
+{
+    impl_->guard([&] { impl_->send_mesh(mesh); });
+}
+
+SolidFields const& Client::begin_step(Step const& step, FluidFields const& fluid, std::vector<Monitor> const& monitors)
+{
+    impl_->guard([&] { impl_->begin_step(step, fluid, monitors); });
+    return impl_->solid.fields;
+}
+
+void Client::end_step(Timings const& timings)
+{
+    impl_->guard([&] { impl_->end_step(timings); });
+}
+
+void Client::finish(std::string const& reason)
+{
+    impl_->guard([&] { impl_->finish(reason); });
+}
+
+void Client::abort(std::string const& reason) noexcept
+{
+    impl_->session.abort(Fault::user, reason);
+}
+
+std::optional<std::string> const& Client::stop_request() const
+{
+    return impl_->solid.stop_request;
+}
+SolidFields const& Client::solid() const
+{
+    return impl_->solid.fields;
+}
+Welcome const& Client::welcome() const
+{
+    return impl_->welcome;
+}
+ExchangeTimes const& Client::exchange_times() const
+{
+    return impl_->clock.times();
+}
+
+}  // namespace gimdem::coupling

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What both sides of a session have in common: state, order, and what to say when something goes wrong.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "message/Control.hpp"
+#include "session/Inbox.hpp"
+#include "session/States.hpp"
+#include "transport/Channel.hpp"
+
+namespace gimdem::coupling::session
+{
+
+using transport::Role;
+using transport::Time;
+
+/// One session, used by the program's thread; the channel's I/O thread enters through the on_...() functions only.
+class Session
+{
+public:
+    /// name: ours. timeout: a peer silent for this long is dead [s].
+    Session(Role role, std::string name, double timeout);
+    /// Tells the peer, if the session has not ended.
+    ~Session();
+    Session(Session const&) = delete;
+    Session& operator=(Session const&) = delete;
+
+    /// Starts to talk over the socket.
+    void open(transport::Socket socket);
+
+    State state() const;
+    std::string const& endpoint() const { return endpoint_; }
+    double bytes() const { return bytes_; }
+
+    /// Fault::user, which ends nothing, if the call is not legal now.
+    void require(Event call);
+    /// The call has happened.
+    void advance(Event call);
+    /// The coupling step that both sides are at.
+    void set_step(std::int64_t step);
+    /// Server: the session number that every later message carries.
+    void choose_session_number();
+
+    void send(message::Message message);
+
+    /// The next message, checked against the state table. awaited: what we wait for, in words.
+    Letter receive(std::string const& awaited, Time deadline, double patience);
+    /// Client: false if no server appears until then.
+    bool wait_for_contact(Time deadline) { return inbox_.wait_for_contact(deadline); }
+    /// Throws what receive() would throw at once: a fault that is known before we send more.
+    void look_for_trouble(std::string const& awaited);
+
+    /// Runs an unpack function; a Fault::protocol of it ends the session.
+    template <class Unpack>
+    auto read(Unpack unpack) -> decltype(unpack());
+    /// Remembers a fault that did not end the session, as the likely reason if it ends soon.
+    void note(std::string const& text) { last_fault_ = text; }
+
+    /// Ends the session: tells the peer, and throws.
+    [[noreturn]] void fail(Fault fault, std::string const& text);
+    /// Ends the session: tells the peer, waits one second at most for the words to leave.
+    void abort(Fault fault, std::string const& reason) noexcept;
+    /// Ends the session in order.
+    void close() noexcept;
+
+    /// `client "solver"`, `server "gimdem-server 0.1"`: for texts.
+    std::string our_name() const;
+    std::string peer_name() const;
+    void set_peer_name(std::string const& name);
+
+private:
+    bool is_over() const;
+    void fall(std::string const& why);
+    void tell(Fault fault, std::string const& reason);
+    void check_letter(Letter const& letter, std::string const& awaited);
+    void check_session_number(message::Message const& message, std::string const& awaited);
+    [[noreturn]] void fail_by_peer(message::Message const& message, std::string const& awaited);
+    [[noreturn]] void fail_by_ending(transport::Ending const& ending, std::string const& awaited);
+    [[noreturn]] void fail_by_delay(std::string const& awaited, double patience);
+    std::string here() const;
+    std::string last_word() const;
+
+    // On the I/O thread.
+    std::optional<double> on_frames(transport::Frames frames, Time arrival);
+    std::optional<double> on_message(message::Message message, Time arrival);
+    transport::Frames on_heartbeat_due() const;
+    transport::Frames on_stranger(transport::Frames frames) const;
+
+    Role const role_;
+    std::string const name_;
+    double const timeout_;
+    Span<Rule const> const rules_;
+    std::string endpoint_;
+    std::string last_fault_;
+    double bytes_ = 0;
+    std::uint64_t session_number_ = 0;
+
+    mutable std::mutex mutex_;  ///< guards what follows
+    State state_;
+    std::int64_t step_ = 0;
+    std::uint64_t progress_ = 0;
+    std::string peer_;                   ///< name
+    message::Heartbeat peer_heartbeat_;  ///< the last one
+
+    Inbox inbox_;
+    std::unique_ptr<transport::Channel> channel_;  ///< last: its thread uses the rest
+};
+
+template <class Unpack>
+auto Session::read(Unpack unpack) -> decltype(unpack())
+{
+    try
+    {
+        return unpack();
+    }
+    catch (CouplingError const& error)
+    {
+        fail(error.fault(), peer_name() + " sent something unusable: " + error.what() + " (" + here() +
+                                "); the two programs do not fit together, see docs/protocol.md");
+    }
+}
+
+}  // namespace gimdem::coupling::session
