@@ -52,7 +52,8 @@ def figures_of(folder: Path, begin: float = FLUIDISED[0], end: float = FLUIDISED
     series = BedSeries(folder / "bed.csv")
     figures = read_summary(folder)
     known = {figure.name for figure in figures}
-    return figures + [figure for figure in time_means(series, begin, end) if figure.name not in known]
+    figures += [figure for figure in time_means(series, begin, end) if figure.name not in known]
+    return figures + force_balance({figure.name: figure.value for figure in figures})
 
 
 def time_means(series: BedSeries, begin: float, end: float) -> list[Figure]:
@@ -70,6 +71,27 @@ def time_means(series: BedSeries, begin: float, end: float) -> list[Figure]:
         figures.append(Figure(f"mean_{name}", float(values.mean()), series.units[name]))
         figures.append(Figure(f"deviation_{name}", float(values.std()), series.units[name]))
     return figures
+
+
+def force_balance(values: dict[str, float]) -> list[Figure]:
+    """What holds the bed up, per area, beside the mean pressure drop; none where a term is missing.
+
+    Newton's second law of all particles, upwards: rate of momentum = fluid forces - weight + wall forces.
+    """
+    try:
+        area = values["inlet_area"]
+        weight = values["bed_weight_per_area"]
+        acceleration = values["mean_momentum_rate"] / area
+        walls = -values["mean_wall_force"] / area  # that the particles exert on the walls
+        drop = values["mean_pressure_drop"]
+    except KeyError:
+        return []
+    needed = weight + acceleration + walls
+    return [
+        Figure("balance_weight", weight, "Pa"), Figure("balance_acceleration", acceleration, "Pa"),
+        Figure("balance_walls", walls, "Pa"), Figure("balance_needed", needed, "Pa"),
+        Figure("pressure_drop_to_needed", drop / needed, "1"),
+    ]
 
 
 def print_side_by_side(first: Path, left: list[Figure], second: Path, right: list[Figure]) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pass the server's stderr on to our terminal, and keep its error lines for the report at the end."""
+"""Pass the server's stderr on to our terminal, and keep its last words for the report at the end."""
 from __future__ import annotations
 
 import errno
@@ -9,10 +9,12 @@ import re
 import select
 import sys
 import termios
+import time
 import tty
 
-ERROR_LINE = re.compile(r"^\s*(gimdem-server: )?error: ", re.IGNORECASE)
-CLEAR_LINE = "\r\x1b[K"
+CLEAR_LINE = "\x1b[K"
+OWN_LINE = re.compile(r"^gimdem-server: ")  # its errors and its news; an error is the last thing that it says
+NEWS_AFTER = 0.5  # a line after which the server lives on for so long is no error [s]
 
 
 class Relay:
@@ -22,9 +24,9 @@ class Relay:
         self.on_terminal = sys.stderr.isatty()
         self.reader, self.child_end = self._open_terminal() if self.on_terminal else os.pipe()
         os.set_blocking(self.reader, False)
-        self.errors: list[str] = []
-        self.last_line = ""
-        self._pending = ""
+        self._held: list[str] = []  # the server's own words, until it is clear that it lives on
+        self._held_since = 0.0
+        self._pending = ""  # of a line that is not complete
         self._at_line_start = True
 
     @staticmethod
@@ -42,25 +44,26 @@ class Relay:
         """Close our copy of the child's end, or we would never see the end of its output."""
         os.close(self.child_end)
 
-    def pump(self, patience: float) -> None:
-        """Wait up to `patience` [s] for output and pass it on."""
+    def pump(self, patience: float, alive: bool) -> None:
+        """Wait up to `patience` [s] for output and pass it on. alive: whether the server is."""
         ready, _, _ = select.select([self.reader], [], [], patience)
-        if not ready:
-            return
-        data = self._read()
+        data = self._read() if ready else b""
         if data:
             self._take(data.decode(errors="replace"))
-        else:
-            select.select([], [], [], patience)  # the other end is closed: nothing more to wait for
+        elif ready:
+            time.sleep(patience)  # the other end is closed: nothing more to wait for
+        if self._held and alive and time.monotonic() - self._held_since > NEWS_AFTER:
+            self._release()
 
-    def drain(self) -> None:
-        """Pass on what is left after the child has ended."""
+    def drain(self) -> list[str]:
+        """Pass on what is left after the server has ended; returns its last words, which are not passed on."""
         while data := self._read():
             self._take(data.decode(errors="replace"))
         self._take("\n" if self._pending else "")
         if not self._at_line_start:
             self._write("\n")
         os.close(self.reader)
+        return [OWN_LINE.sub("", line).strip() for line in self._held]
 
     def _read(self) -> bytes:
         try:
@@ -77,20 +80,28 @@ class Relay:
         *lines, self._pending = self._pending.split("\n")
         for line in lines:
             self._line(line)
-        visible = self._pending.rsplit("\r", 1)[-1]
-        if self.on_terminal and self._pending and not ERROR_LINE.match(visible) and not "error: ".startswith(visible):
+        visible = self._pending.rsplit("\r", 1)[-1].removeprefix(CLEAR_LINE)
+        if self.on_terminal and self._pending and not "gimdem-server: ".startswith(visible[:15]):
+            self._release()
             self._write(self._pending)  # the progress line, which has no end
-            self.last_line = visible
             self._pending = ""
 
     def _line(self, line: str) -> None:
-        visible = line.rsplit("\r", 1)[-1].rstrip()
-        if ERROR_LINE.match(visible) or (self.errors and line.startswith("  ")):
-            self.errors.append(ERROR_LINE.sub("", visible).strip())
-            return
-        if visible:
-            self.last_line = visible
-        self._write(line + "\n")
+        visible = line.rsplit("\r", 1)[-1].removeprefix(CLEAR_LINE).rstrip()
+        if OWN_LINE.match(visible):
+            self._release()
+        if OWN_LINE.match(visible) or (self._held and visible.startswith("  ")):
+            self._held.append(visible)
+            self._held_since = time.monotonic()
+        else:
+            self._release()
+            self._write(line + "\n")
+
+    def _release(self) -> None:
+        """What was held back was no last word."""
+        held, self._held = self._held, []
+        for line in held:
+            self._write(line + "\n")
 
     def _write(self, text: str) -> None:
         sys.stderr.write(text)

@@ -140,6 +140,8 @@ def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: 
     record.finish(in_words(outcome), wall_time)
     if outcome.killed or not (outcome.good() or outcome.signal):
         raise UserError(failure(outcome, run), exit_code(outcome))
+    for word in outcome.last_words:
+        say("server", word)
     print_results(run.folder, wall_time)
     if outcome.signal:
         say("stopped", f"by {signal.Signals(outcome.signal).name}, before the end")
@@ -168,7 +170,7 @@ def failure(outcome: Outcome, run: Run) -> str:
     first = outcome.first()
     lines = [f"the run failed: {how_it_ended(first.name, first.code)}"]
     for child in outcome.children():
-        told = " ".join(outcome.errors) if child is outcome.server else openfoam.error_in(run.client_log)
+        told = " ".join(outcome.last_words) if child is outcome.server else openfoam.error_in(run.client_log)
         reason = told or reason_without_words(child)
         lines += [f"  {child.name}: {reason}"] if reason else []
     lines.append(f"  logs: {shown(run.server_log)}, {shown(run.client_log)}")

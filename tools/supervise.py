@@ -49,7 +49,7 @@ class Outcome:
     client: Child | None = None
     signal: int = 0  # that asked us to stop, 0: none
     killed: bool = False  # at the second signal
-    errors: list[str] = field(default_factory=list)  # of the server
+    last_words: list[str] = field(default_factory=list)  # of the server
 
     def children(self) -> list[Child]:
         return [self.server] if self.client is None else [self.server, self.client]
@@ -103,12 +103,11 @@ class Supervisor:
             outcome = Outcome(Child("gimdem-server", start_server(relay.child_end)))
             relay.child_started()
             while outcome.server.alive() and not server_ready() and not stop.count:
-                relay.pump(POLL)
+                relay.pump(POLL, alive=True)
             if outcome.server.alive() and not stop.count:
                 outcome.client = Child("gimdemFoam", start_client())
             self._watch(outcome, relay, stop)
-            relay.drain()
-            outcome.errors = relay.errors
+            outcome.last_words = relay.drain()
             return outcome
         finally:
             for child in outcome.children() if outcome else []:
@@ -119,7 +118,7 @@ class Supervisor:
     def _watch(self, outcome: Outcome, relay: Relay, stop: StopRequest) -> None:
         handled = 0
         while True:
-            relay.pump(POLL)
+            relay.pump(POLL, outcome.server.alive())
             alive = [child for child in outcome.children() if child.alive()]
             if not alive:
                 return
