@@ -66,7 +66,8 @@ void align(transport::Frame& frame, std::size_t size)
 }
 
 template <class T>
-void append_array(Message& message, std::string const& name, unsigned components, Span<T const> values)
+void append_array(Message& message, std::string const& name, unsigned components, Span<T const> values,
+                  transport::Frame frame)
 {
     v1::ArrayHeader* const header = message.envelope.add_arrays();
     header->set_name(name);
@@ -74,7 +75,8 @@ void append_array(Message& message, std::string const& name, unsigned components
     header->set_components(components);
     header->set_count(values.size() / components);
     header->set_dense(true);
-    message.arrays.emplace_back(values.data(), values.size() * sizeof(T));
+    if (!values.empty()) std::memcpy(frame.data(), values.data(), values.size() * sizeof(T));
+    message.arrays.push_back(std::move(frame));
 }
 
 template <class T>
@@ -104,9 +106,9 @@ void check_array_count(Message const& message, std::size_t count)
                std::to_string(count));
 }
 
-template void append_array(Message&, std::string const&, unsigned, Span<double const>);
-template void append_array(Message&, std::string const&, unsigned, Span<std::int32_t const>);
-template void append_array(Message&, std::string const&, unsigned, Span<std::int64_t const>);
+template void append_array(Message&, std::string const&, unsigned, Span<double const>, transport::Frame);
+template void append_array(Message&, std::string const&, unsigned, Span<std::int32_t const>, transport::Frame);
+template void append_array(Message&, std::string const&, unsigned, Span<std::int64_t const>, transport::Frame);
 template Span<double const> view_array(Message const&, std::string const&, unsigned, std::optional<std::size_t>);
 template Span<std::int32_t const> view_array(Message const&, std::string const&, unsigned, std::optional<std::size_t>);
 template Span<std::int64_t const> view_array(Message const&, std::string const&, unsigned, std::optional<std::size_t>);

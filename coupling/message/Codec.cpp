@@ -5,6 +5,11 @@
 #include <string>
 #include <utility>
 
+#include <google/protobuf/stubs/common.h>
+#if GOOGLE_PROTOBUF_VERSION < 4000000
+#include <google/protobuf/stubs/logging.h>
+#endif
+
 #include "gimdem/coupling/Types.hpp"
 #include "message/Arrays.hpp"
 
@@ -15,6 +20,15 @@ namespace
 
 /// Patches are the only long list in an envelope; a mebibyte holds thousands of them.
 std::size_t constexpr max_envelope_bytes = std::size_t{1} << 20;
+
+/// Reads without the chatter of protobuf: what is wrong, our caller tells in one message.
+bool read_quietly(v1::Envelope& envelope, transport::Frame const& frame)
+{
+#if GOOGLE_PROTOBUF_VERSION < 4000000
+    google::protobuf::LogSilencer const silence;
+#endif
+    return frame.size() <= max_envelope_bytes && envelope.ParseFromArray(frame.data(), static_cast<int>(frame.size()));
+}
 
 std::string version_text(unsigned major, unsigned minor)
 {
@@ -104,9 +118,7 @@ transport::Frames encode(Message message)
 Kind peek_kind(transport::Frame const& envelope)
 {
     v1::Envelope read;
-    bool const readable = envelope.size() <= max_envelope_bytes &&
-                          read.ParseFromArray(envelope.data(), static_cast<int>(envelope.size()));
-    return readable ? read.kind_case() : Kind::KIND_NOT_SET;
+    return read_quietly(read, envelope) ? read.kind_case() : Kind::KIND_NOT_SET;
 }
 
 Message decode(transport::Frames frames)
@@ -119,7 +131,7 @@ Message decode(transport::Frames frames)
     transport::Frame const& first = frames.front();
     if (first.size() > max_envelope_bytes)
         refuse("an envelope of " + std::to_string(first.size()) + " bytes (too large)");
-    if (!message.envelope.ParseFromArray(first.data(), static_cast<int>(first.size())))
+    if (!read_quietly(message.envelope, first))
         refuse("an envelope of " + std::to_string(first.size()) + " bytes that cannot be read");
     check_version(message.envelope);
     if (message.kind() == Kind::KIND_NOT_SET) refuse("an envelope without a message in it");

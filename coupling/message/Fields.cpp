@@ -82,13 +82,14 @@ FieldChoice<SolidFields> choose_solid_fields(std::vector<std::string> const& nam
 }
 
 template <class Fields>
-void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count)
+void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
+                   transport::FramePool const& memory)
 {
     for (auto const& entry : choice)
     {
         Span<double const> const values = fields.*entry.values;
         check_before_sending(entry, values, cell_count);
-        append_array(message, entry.name, entry.components, values);
+        append_array(message, entry.name, entry.components, values, memory.make(values.size() * sizeof(double)));
     }
 }
 
@@ -107,8 +108,10 @@ Fields view_fields(Message const& message, FieldChoice<Fields> const& choice, st
     return fields;
 }
 
-template void append_fields(Message&, FieldChoice<FluidFields> const&, FluidFields const&, std::size_t);
-template void append_fields(Message&, FieldChoice<SolidFields> const&, SolidFields const&, std::size_t);
+template void append_fields(Message&, FieldChoice<FluidFields> const&, FluidFields const&, std::size_t,
+                            transport::FramePool const&);
+template void append_fields(Message&, FieldChoice<SolidFields> const&, SolidFields const&, std::size_t,
+                            transport::FramePool const&);
 template FluidFields view_fields(Message const&, FieldChoice<FluidFields> const&, std::size_t);
 template SolidFields view_fields(Message const&, FieldChoice<SolidFields> const&, std::size_t);
 

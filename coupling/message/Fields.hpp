@@ -9,6 +9,7 @@
 
 #include "gimdem/coupling/Types.hpp"
 #include "message/Message.hpp"
+#include "transport/FramePool.hpp"
 
 namespace gimdem::coupling::message
 {
@@ -45,7 +46,8 @@ FieldChoice<SolidFields> choose_solid_fields(std::vector<std::string> const& nam
 
 /// Adds the chosen fields to a message. Fault::user if one has not cell_count rows, or holds a NaN or infinity.
 template <class Fields>
-void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count);
+void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
+                   transport::FramePool const& memory);
 
 /// The chosen fields, in place; the others are empty. Fault::protocol if the message has others than the chosen ones,
 /// or the wrong sizes, or a NaN or infinity.

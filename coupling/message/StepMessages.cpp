@@ -86,7 +86,7 @@ Message pack(FluidState const& state, Terms const& terms)
     pack_timings(state.previous, *body.mutable_previous());
     body.set_exchange(state.exchange);
     body.set_waiting(state.waiting);
-    append_fields(message, terms.fluid, state.fields, terms.cell_count);
+    append_fields(message, terms.fluid, state.fields, terms.cell_count, terms.memory);
     return message;
 }
 
@@ -98,7 +98,7 @@ Message pack(SolidState const& state, Terms const& terms)
     body.set_busy_time(state.busy_time);
     body.set_stop_requested(state.stop_request.has_value());
     body.set_stop_reason(printable(state.stop_request.value_or("")));
-    append_fields(message, terms.solid, state.fields, terms.cell_count);
+    append_fields(message, terms.solid, state.fields, terms.cell_count, terms.memory);
     return message;
 }
 

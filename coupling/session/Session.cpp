@@ -181,7 +181,7 @@ void Session::fail_by_peer(Message const& message, std::string const& awaited)
     message::ErrorReport const report = message::unpack_error(message);
     bool const special = report.fault == Fault::mesh || report.fault == Fault::version;
     set_peer_name(report.name);
-    std::string const text = peer_name() + " ended the run: " + report.reason + " (it was in state " + report.state +
+    std::string const text = peer_name() + (report.fault == Fault::mesh ? " refused the mesh: " : " ended the run: ") + report.reason + " (it was in state " + report.state +
                              ", step " + std::to_string(report.step) + "); " + our_name() + " was waiting for " +
                              awaited + " " + here();
     fall(text);

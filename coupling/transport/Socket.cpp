@@ -14,6 +14,9 @@ namespace gimdem::coupling::transport
 namespace
 {
 
+/// Room for a whole step of a small case in the system's buffers, where the system allows it [byte].
+int constexpr system_buffer = 4 << 20;
+
 char const* const monitor_address = "inproc://monitor";
 
 [[noreturn]] void refuse(Address const& address, char const* action, zmq::error_t const& error)
@@ -44,6 +47,8 @@ Socket::Socket(Role role, Address const& address)
     // Nothing waits in ZeroMQ for long: the other side reads at once, and the protocol allows few messages in flight.
     socket_.set(zmq::sockopt::sndhwm, 0);
     socket_.set(zmq::sockopt::rcvhwm, 0);
+    socket_.set(zmq::sockopt::sndbuf, system_buffer);
+    socket_.set(zmq::sockopt::rcvbuf, system_buffer);
     socket_.set(zmq::sockopt::linger, 0);
     socket_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(max_frame_bytes));
     socket_.set(zmq::sockopt::ipv6, address.ipv6);
