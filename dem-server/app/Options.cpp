@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/Options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "core/Error.hpp"
+
+namespace gimdem::app
+{
+
+std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
+{
+    Options options;
+    CLI::App app("gimdem-server: moves the particles of a case and maps them onto the client's mesh");
+    app.set_version_flag("--version", "gimdem-server " GIMDEM_VERSION);
+    app.add_option("--case", options.case_file, "case file (case.toml)")->required();
+    app.add_option("--run", options.run_folder, "folder for the results");
+    app.add_flag("--describe", options.describe, "check the case file, print what it says as JSON, and stop");
+    app.add_option("--endpoint", options.endpoint, "ipc:///path/socket or tcp://127.0.0.1:port");
+    app.add_option("--schedule", options.schedule, "serial or overlapped")
+        ->check(CLI::IsMember({"serial", "overlapped"}));
+    app.add_option("--until", options.until, "simulated time [s]")->check(CLI::PositiveNumber);
+    app.add_option("--threads", options.threads, "threads for the particles, 0: all cores")
+        ->check(CLI::NonNegativeNumber);
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (CLI::ParseError const& error)
+    {
+        exit_code = app.exit(error);
+        if (exit_code != 0) exit_code = 2;
+        return {};
+    }
+    return options;
+}
+
+Case read_case_with(Options const& options)
+{
+    Case settings = read_case(options.case_file);
+    if (options.endpoint) settings.coupling.endpoint = *options.endpoint;
+    if (options.schedule) settings.coupling.schedule = *options.schedule;
+    if (options.until)
+    {
+        if (!std::isfinite(*options.until)) throw UserError("--until must be a finite time [s]");
+        settings.run.until = *options.until;
+    }
+    if (options.threads) settings.dem.threads = *options.threads;
+    return settings;
+}
+
+}  // namespace gimdem::app

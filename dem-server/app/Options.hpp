@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Command line of gimdem-server.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/Case.hpp"
+
+namespace gimdem::app
+{
+
+struct Options
+{
+    std::filesystem::path case_file;
+    std::filesystem::path run_folder = ".";  ///< results go here
+    bool describe = false;                   ///< print the case as JSON and stop
+    std::optional<std::string> endpoint, schedule;
+    std::optional<double> until;
+    std::optional<int> threads;
+};
+
+/// Empty when the program has nothing to do (help, version, wrong usage): exit_code tells the status.
+std::optional<Options> parse_options(int argc, char** argv, int& exit_code);
+
+/// The case with the options' values in place of the file's.
+Case read_case_with(Options const& options);
+
+}  // namespace gimdem::app

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/CoupledEngine.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "exec/Reduce.hpp"
+
+namespace gimdem
+{
+
+namespace
+{
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Sum of value(i), a Vec3, in fixed order.
+template <class Value>
+Vec3 vector_sum(exec::Execution execution, std::int64_t count, Value value)
+{
+    Constant3 const total = exec::reduce(
+        execution, count, Constant3{0, 0, 0},
+        [=](std::int64_t i)
+        {
+            Vec3 const v = value(i);
+            return Constant3{v.x(), v.y(), v.z()};
+        },
+        [](Constant3 a, Constant3 b) {
+            return Constant3{a.x + b.x, a.y + b.y, a.z + b.z};
+        });
+    return total.vec();
+}
+
+Constant3 constant(Vec3 const& v)
+{
+    return {v.x(), v.y(), v.z()};
+}
+
+}  // namespace
+
+CoupledEngine::CoupledEngine(Case const& settings, exec::Execution execution, PolyMesh const& mesh,
+                             WallGeometry const& walls, coupling::FluidProperties const& fluid, DemSystem& system)
+    : settings_(settings),
+      execution_(execution),
+      mesh_(mesh),
+      system_(system),
+      forces_(execution, settings.fluid_forces, settings.mapping.void_fraction_minimum, fluid),
+      mapper_(execution, mesh),
+      on_particles_{forces_, mesh, mapper_.cell_of(), void_fraction_}
+{
+    wall_faces_.resize(mesh.face_count());
+    for (std::int32_t f = 0; f < mesh.face_count(); ++f)
+        wall_faces_[f] = walls.is_wall_face(f);
+    system_.set_permutation_listener([this](std::span<std::int32_t const> order) { mapper_.permute(order); });
+}
+
+StepReport CoupledEngine::map_initial_state()
+{
+    StepReport report;
+    std::vector<double> const still(static_cast<std::size_t>(mesh_.cell_count()) * 3, 0.0);
+    coupling::FluidFields fluid;
+    fluid.velocity = still;
+    forces_.load(fluid, mesh_.cell_count());
+    mapper_.locate(system_.particles(), wall_faces_);
+    mapper_.compute_weights(system_.particles());
+    mapper_.sum_into_cells(system_.particles(), system_.impulses(), sums_);
+    compute_void_fraction(report);
+
+    // The drag as it is now, as if it had acted for a second.
+    system_.begin_coupling_step(&on_particles_);
+    system_.take_impulses_of_one_second();
+    map_particles(1, fluid, report);
+    return report;
+}
+
+StepReport CoupledEngine::advance(coupling::Step const& step, coupling::FluidFields const& fluid)
+{
+    StepReport report;
+    auto const start = std::chrono::steady_clock::now();
+    report.dem_steps = std::max<std::int64_t>(1, std::llround(std::ceil(step.dt / settings_.dem.time_step - 1e-9)));
+    forces_.load(fluid, mesh_.cell_count());
+    system_.begin_coupling_step(&on_particles_);
+    report.pressure_force = constant(system_.steady_fluid_force());
+    for (std::int64_t k = 0; k < report.dem_steps; ++k)
+        system_.step(step.dt / static_cast<double>(report.dem_steps));
+    report.timings.compute = seconds_since(start);
+
+    auto const mapping_start = std::chrono::steady_clock::now();
+    map_particles(step.dt, fluid, report);
+    report.timings.mapping = seconds_since(mapping_start);
+    return report;
+}
+
+coupling::SolidFields CoupledEngine::fields() const
+{
+    coupling::SolidFields fields;
+    auto const span = [](exec::Buffer<double> const& b)
+    { return coupling::Span<double const>(b.view().data, static_cast<std::size_t>(b.size())); };
+    fields.void_fraction = span(void_fraction_);
+    fields.momentum_source = span(momentum_source_);
+    fields.drag_coefficient = span(drag_coefficient_);
+    fields.drag_momentum = span(drag_momentum_);
+    return fields;
+}
+
+void CoupledEngine::map_particles(double dt, coupling::FluidFields const& fluid, StepReport& report)
+{
+    mapper_.locate(system_.particles(), wall_faces_);
+    mapper_.compute_weights(system_.particles());
+    mapper_.sum_into_cells(system_.particles(), system_.impulses(), sums_);
+    compute_void_fraction(report);
+    compute_momentum_exchange(dt, fluid);
+    check_balance(dt, report);
+}
+
+void CoupledEngine::compute_void_fraction(StepReport& report)
+{
+    void_fraction_.resize(mesh_.cell_count());
+    report.cell_clips = 0;
+    report.void_fraction_min = 1;
+    report.void_fraction_max = 0;
+    for (std::int32_t c = 0; c < mesh_.cell_count(); ++c)
+    {
+        double const exact = 1 - sums_.solid_volume[c] / mesh_.volume(c);
+        void_fraction_[c] = std::max(exact, settings_.mapping.void_fraction_minimum);
+        report.cell_clips += void_fraction_[c] != exact;
+        report.void_fraction_min = std::min(report.void_fraction_min, void_fraction_[c]);
+        report.void_fraction_max = std::max(report.void_fraction_max, void_fraction_[c]);
+    }
+}
+
+// S = -(1/V) sum w F_d, K = (1/V) sum w k, and K u_p = S + K v with the fluid velocity v of the cell that the drag was
+// computed with, theory.md (C.2), (C.5)-(C.7).
+void CoupledEngine::compute_momentum_exchange(double dt, coupling::FluidFields const& fluid)
+{
+    std::int64_t const n = mesh_.cell_count();
+    momentum_source_.resize(3 * n);
+    drag_coefficient_.resize(n);
+    drag_momentum_.resize(3 * n);
+    double const* const velocity = fluid.velocity.data();
+    for (std::int64_t c = 0; c < n; ++c)
+    {
+        double const per_volume = 1 / (dt * mesh_.volume(static_cast<std::int32_t>(c)));
+        double const k = sums_.drag[c].w * per_volume;
+        Vec3 const source = -per_volume * sums_.drag[c].xyz();
+        drag_coefficient_[c] = k;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            momentum_source_[3 * c + axis] = source[axis];
+            drag_momentum_[3 * c + axis] = source[axis] + (velocity == nullptr ? 0 : k * velocity[3 * c + axis]);
+        }
+    }
+}
+
+void CoupledEngine::check_balance(double dt, StepReport& report) const
+{
+    std::int64_t const n = system_.particles().count();
+    Impulse const* const impulse = system_.impulses().view().data;
+    Quad const* const x = system_.particles().position.view().data;
+    Vec3 const drag = vector_sum(execution_, n, [=](std::int64_t p) { return Vec3(impulse[p].drag.xyz() / dt); });
+    Vec3 const wall = vector_sum(execution_, n, [=](std::int64_t p) { return Vec3(impulse[p].wall.xyz() / dt); });
+    double const magnitude =
+        exec::sum(execution_, n, [=](std::int64_t p) { return impulse[p].drag.xyz().norm() / dt; });
+    double const solid = exec::sum(execution_, n, [=](std::int64_t p) { return sphere_volume(x[p].w); });
+
+    double const* const s = momentum_source_.view().data;
+    Quad const* const cell = mesh_.view().cell;
+    double const* const solid_volume = sums_.solid_volume.view().data;
+    Vec3 const given =
+        vector_sum(execution_, mesh_.cell_count(),
+                   [=](std::int64_t c) { return Vec3(cell[c].w * Vec3(s[3 * c], s[3 * c + 1], s[3 * c + 2])); });
+    double const mapped = exec::sum(execution_, mesh_.cell_count(), [=](std::int64_t c) { return solid_volume[c]; });
+
+    report.drag_force = constant(drag);
+    report.wall_force = constant(wall);
+    report.momentum_imbalance = magnitude > 0 ? (given + drag).norm() / magnitude : 0;
+    report.volume_imbalance = solid > 0 ? std::abs(mapped - solid) / solid : 0;
+}
+
+}  // namespace gimdem

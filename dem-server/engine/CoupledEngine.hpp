@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// One coupling step of the particle side: fluid in, particles moved, solid out.
+#pragma once
+
+#include <cstdint>
+
+#include "core/Case.hpp"
+#include "engine/DemSystem.hpp"
+#include "gimdem/coupling/Types.hpp"
+#include "mapping/Mapper.hpp"
+
+namespace gimdem
+{
+
+/// What a coupling step did, for logs and checks. Forces are means over the step, sums over all particles.
+struct StepReport
+{
+    std::int64_t dem_steps = 0;
+    double momentum_imbalance = 0;  ///< |sum S V + sum F_d| / sum |F_d|, theory.md (C.3) [1]
+    double volume_imbalance = 0;    ///< |sum solid V - sum V_p| / sum V_p [1]
+    std::int64_t cell_clips = 0;    ///< cells whose void fraction was raised to the minimum
+    double void_fraction_min = 1, void_fraction_max = 1;
+    Constant3 drag_force{0, 0, 0};      ///< on the particles [N]
+    Constant3 pressure_force{0, 0, 0};  ///< on the particles [N]
+    Constant3 wall_force{0, 0, 0};      ///< of the walls on the particles [N]
+    coupling::Timings timings;          ///< compute: DEM, mapping
+};
+
+class CoupledEngine
+{
+public:
+    /// Takes particles that are at rest in the mesh. Throws UserError for a particle outside the mesh.
+    CoupledEngine(Case const& settings, exec::Execution execution, PolyMesh const& mesh, WallGeometry const& walls,
+                  coupling::FluidProperties const& fluid, DemSystem& system);
+
+    /// The solid at t = 0, with the drag of particles in a fluid at rest.
+    StepReport map_initial_state();
+
+    /// Moves the particles t -> t + dt in the fluid of time t and maps them, theory.md (C.1)-(C.7). Takes the least
+    /// whole number of equal DEM steps that are no longer than [dem] time_step.
+    StepReport advance(coupling::Step const& step, coupling::FluidFields const& fluid);
+
+    /// The solid of the last step; spans live until the next one.
+    coupling::SolidFields fields() const;
+
+    std::int64_t particle_clips() const { return forces_.clipped(); }
+    exec::Buffer<double> const& void_fraction() const { return void_fraction_; }
+
+private:
+    void map_particles(double dt, coupling::FluidFields const& fluid, StepReport& report);
+    void compute_void_fraction(StepReport& report);
+    void compute_momentum_exchange(double dt, coupling::FluidFields const& fluid);
+    void check_balance(double dt, StepReport& report) const;
+
+    Case const& settings_;
+    exec::Execution execution_;
+    PolyMesh const& mesh_;
+    DemSystem& system_;
+    FluidForces forces_;
+    Mapper mapper_;
+    FluidOnParticles on_particles_;
+    exec::Buffer<std::uint8_t> wall_faces_;
+    CellSums sums_;
+    exec::Buffer<double> void_fraction_, momentum_source_, drag_coefficient_, drag_momentum_;
+};
+
+}  // namespace gimdem

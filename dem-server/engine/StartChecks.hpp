@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What must be true before the first step.
+#pragma once
+
+#include "core/Case.hpp"
+#include "exec/Execution.hpp"
+#include "particles/Materials.hpp"
+#include "particles/ParticleState.hpp"
+
+namespace gimdem
+{
+
+/// Largest share of the Rayleigh time that a DEM step may take; 10 to 20 % is the common advice.
+inline constexpr double rayleigh_share_limit = 0.2;
+
+/// Shortest Rayleigh time of all particles [s], theory.md (D.14); infinity for none.
+double shortest_rayleigh_time(Materials const& materials, ParticleState const& particles);
+
+/// Throws UserError where [dem] time_step is above 20 % of the shortest Rayleigh time: tells both and the largest
+/// step allowed.
+void check_time_step(Case const& settings, Materials const& materials, ParticleState const& particles);
+
+/// Throws UserError where two particles overlap by more than 1 % of the smaller diameter: names both and the overlap.
+void check_overlaps(exec::Execution execution, ParticleState const& particles);
+
+}  // namespace gimdem

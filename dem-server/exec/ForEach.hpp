@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Launch a kernel over an index range. A kernel is a trivially copyable functor over views, operator()(index); calls
+/// with different indices must not write the same place, so that any order and any thread count give the same bits.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "exec/Execution.hpp"
+
+namespace gimdem::exec
+{
+
+using Index = std::int64_t;
+
+template <class Kernel>
+void for_each(Execution const& execution, Index count, Kernel kernel)
+{
+    static_assert(std::is_trivially_copyable_v<Kernel>, "a kernel must be a trivially copyable functor over views");
+    if (execution.backend == Backend::serial || execution.threads == 1)
+    {
+        for (Index i = 0; i < count; ++i)
+            kernel(i);
+        return;
+    }
+#pragma omp parallel for schedule(static) num_threads(execution.threads)
+    for (Index i = 0; i < count; ++i)
+        kernel(i);
+}
+
+}  // namespace gimdem::exec

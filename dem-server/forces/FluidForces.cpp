@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "forces/FluidForces.hpp"
+
+#include <algorithm>
+
+#include "exec/Reduce.hpp"
+#include "forces/Beetstra.hpp"
+
+namespace gimdem
+{
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+/// The fluid per cell, as kernels see it.
+struct FluidView
+{
+    Quad const* velocity;
+    double const* velocity_gradient;
+    Quad const* pressure_gradient;
+    Quad const* void_gradient;
+    double density, viscosity;
+
+    /// v_i + grad v_i . (x - x_i), theory.md (D.15).
+    GIMDEM_HD Vec3 velocity_at(std::int32_t cell, Vec3 const& dx) const
+    {
+        double const* const g = velocity_gradient + 9 * static_cast<std::int64_t>(cell);
+        return velocity[cell].xyz() + Vec3(dx.x() * g[0] + dx.y() * g[3] + dx.z() * g[6],
+                                           dx.x() * g[1] + dx.y() * g[4] + dx.z() * g[7],
+                                           dx.x() * g[2] + dx.y() * g[5] + dx.z() * g[8]);
+    }
+};
+
+/// Load of each particle, theory.md (D.15)-(D.18).
+struct LoadKernel
+{
+    ParticleView particles;
+    std::int32_t const* cell_of;
+    Quad const* cell;
+    double const* void_fraction;
+    FluidView fluid;
+    double void_fraction_minimum;
+    bool drag, pressure_gradient;
+    FluidLoad* loads;
+    std::uint8_t* was_clipped;
+
+    GIMDEM_HD void operator()(std::int64_t p) const
+    {
+        std::int32_t const c = cell_of[p];
+        Quad const x = particles.position[p];
+        FluidLoad load{{0, 0, 0, 0}, {0, 0, 0, 0}};
+        if (pressure_gradient) load.steady = Quad::of(-sphere_volume(x.w) * fluid.pressure_gradient[c].xyz(), 0);
+        was_clipped[p] = 0;
+        if (drag)
+        {
+            Vec3 const dx = x.xyz() - cell[c].xyz();
+            double const linear = void_fraction[c] + fluid.void_gradient[c].xyz().dot(dx);  // Eq. 25
+            double const e = linear < void_fraction_minimum ? void_fraction_minimum : (linear > 1 ? 1.0 : linear);
+            was_clipped[p] = e != linear;
+            Vec3 const v_f = fluid.velocity_at(c, dx);
+            load.fluid_velocity = Quad::of(v_f, coefficient(e, (v_f - particles.velocity[p].xyz()).norm(), 2 * x.w));
+        }
+        loads[p] = load;
+    }
+
+private:
+    /// k [kg/s] of F_d = k (v_f - v_p), (D.16), at a slip [m/s] and a diameter [m].
+    GIMDEM_HD double coefficient(double e, double slip, double diameter) const
+    {
+        double const reynolds = e * fluid.density * slip * diameter / fluid.viscosity;
+        return 3 * pi * fluid.viscosity * diameter * e * beetstra_factor(e, reynolds);
+    }
+};
+
+void load_vectors(coupling::Span<double const> from, std::int32_t count, exec::Buffer<Quad>& to)
+{
+    to.resize(count);
+    if (from.empty())
+    {
+        to.fill({0, 0, 0, 0});
+        return;
+    }
+    for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c)
+        to[static_cast<std::int64_t>(c)] = {from[3 * c], from[3 * c + 1], from[3 * c + 2], 0};
+}
+
+}  // namespace
+
+void FluidForces::load(coupling::FluidFields const& fields, std::int32_t cell_count)
+{
+    load_vectors(fields.velocity, cell_count, velocity_);
+    load_vectors(fields.pressure_gradient, cell_count, pressure_gradient_);
+    load_vectors(fields.void_fraction_gradient, cell_count, void_gradient_);
+    velocity_gradient_.resize(9 * static_cast<std::int64_t>(cell_count));
+    if (fields.velocity_gradient.empty())
+        velocity_gradient_.fill(0);
+    else
+        std::copy(fields.velocity_gradient.begin(), fields.velocity_gradient.end(), velocity_gradient_.host().begin());
+}
+
+void FluidForces::apply(ParticleState& particles, PolyMesh const& mesh, exec::Buffer<std::int32_t> const& cell_of,
+                        exec::Buffer<double> const& void_fraction, exec::Buffer<FluidLoad>& loads)
+{
+    std::int64_t const n = particles.count();
+    loads.resize(n);
+    was_clipped_.resize(n);
+    FluidView const fluid{velocity_.view().data,
+                          velocity_gradient_.view().data,
+                          pressure_gradient_.view().data,
+                          void_gradient_.view().data,
+                          fluid_.density,
+                          fluid_.viscosity};
+    std::uint8_t* const was_clipped = was_clipped_.view().data;
+    exec::for_each(execution_, n,
+                   LoadKernel{particles.view(), cell_of.view().data, mesh.view().cell, void_fraction.view().data, fluid,
+                              void_fraction_minimum_, settings_.drag != "none", settings_.pressure_gradient,
+                              loads.view().data, was_clipped});
+    clipped_ +=
+        static_cast<std::int64_t>(exec::sum(execution_, n, [=](std::int64_t p) { return double(was_clipped[p]); }));
+}
+
+}  // namespace gimdem

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// From particles to cells: where each particle is, its weights w_pi on the cells around it, and sums with them.
+///
+/// Conservative by construction: the weights of a particle sum to one, so sums over cells equal sums over particles to
+/// rounding (theory.md, G.8, C.3). No atomics: each cell sums the particles of the cells around it in stored order.
+#pragma once
+
+#include <cstdint>
+
+#include "exec/Buffer.hpp"
+#include "exec/Execution.hpp"
+#include "exec/Sort.hpp"
+#include "mesh/PointLocator.hpp"
+#include "mesh/PolyMesh.hpp"
+#include "particles/ParticleState.hpp"
+
+namespace gimdem
+{
+
+/// Cell sums of one mapping.
+struct CellSums
+{
+    exec::Buffer<double> solid_volume;  ///< sum_p w_pi V_p [m^3]
+    exec::Buffer<Quad> drag;            ///< sum_p w_pi J_p with J the drag impulse [N s], w: of its coefficient [kg]
+};
+
+class Mapper
+{
+public:
+    Mapper(exec::Execution execution, PolyMesh const& mesh);
+
+    /// Finds the cell of every particle, walking from the last one. `wall_faces`: shape=(n_faces,), 1 where a face
+    /// stops particles. Throws UserError, naming the particle and the place, for one that left the mesh through an open
+    /// patch or sank deeper into a wall than its radius.
+    void locate(ParticleState const& particles, exec::Buffer<std::uint8_t> const& wall_faces);
+
+    /// Weights of every particle by the Gaussian Integral Method with Eq. 27, both layers.
+    void compute_weights(ParticleState const& particles);
+
+    /// Sums volumes and impulses into cells.
+    void sum_into_cells(ParticleState const& particles, exec::Buffer<Impulse> const& impulses, CellSums& sums) const;
+
+    /// Particles changed places: the particle now at i was at order[i].
+    void permute(std::span<std::int32_t const> order);
+
+    exec::Buffer<std::int32_t> const& cell_of() const { return cell_of_; }
+    exec::Buffer<std::int32_t> const& weight_offsets() const { return weight_offsets_; }
+    exec::Buffer<double> const& weights() const { return weights_; }
+    CellLayers const& layers() const { return layers_; }
+
+private:
+    exec::Execution execution_;
+    PolyMesh const& mesh_;
+    CellLayers layers_;
+    StartCells start_cells_;
+    exec::Buffer<double> log_volume_;  ///< ln V_c per cell
+    exec::Buffer<std::int32_t>
+        reverse_slot_;  ///< for entry k of layers: place of the row's cell in the row of cells[k]
+    exec::Buffer<std::int32_t> cell_of_;
+    exec::Buffer<std::int32_t> weight_offsets_;
+    exec::Buffer<double> weights_;
+    exec::Groups by_cell_;
+};
+
+}  // namespace gimdem

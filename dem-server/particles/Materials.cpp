@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "particles/Materials.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/Error.hpp"
+
+namespace gimdem
+{
+
+ContactConstants contact_constants(MaterialSettings const& a, MaterialSettings const& b, ContactSettings const& contact)
+{
+    auto const compliance = [](MaterialSettings const& m)
+    { return (1 - m.poisson_ratio * m.poisson_ratio) / m.young_modulus; };
+    auto const shear_compliance = [](MaterialSettings const& m)
+    { return 2 * (2 - m.poisson_ratio) * (1 + m.poisson_ratio) / m.young_modulus; };
+    double const log_e = std::log(contact.restitution);
+    return {.young_eff = 1 / (compliance(a) + compliance(b)),
+            .shear_eff = 1 / (shear_compliance(a) + shear_compliance(b)),
+            .damping_ratio = log_e / std::sqrt(log_e * log_e + std::numbers::pi * std::numbers::pi),
+            .friction = contact.friction};
+}
+
+Materials::Materials(Case const& settings) : settings_(settings.materials)
+{
+    int const n = count();
+    table_.resize(n * n);
+    table_.fill({0, 0, 0, 0});
+    for (ContactSettings const& contact : settings.contacts)
+    {
+        int const a = number_of(contact.pair[0]);
+        int const b = number_of(contact.pair[1]);
+        table_[a * n + b] = table_[b * n + a] = contact_constants((*this)[a], (*this)[b], contact);
+    }
+}
+
+int Materials::number_of(std::string_view name) const
+{
+    for (int m = 0; m < count(); ++m)
+        if ((*this)[m].name == name) return m;
+    throw UserError("no material is called \"" + std::string(name) + "\"; add it to [[materials]]");
+}
+
+double Materials::rayleigh_time(int material, double radius) const
+{
+    MaterialSettings const& m = (*this)[material];
+    double const shear_modulus = m.young_modulus / (2 * (1 + m.poisson_ratio));
+    return std::numbers::pi * radius * std::sqrt(m.density / shear_modulus) / (0.1631 * m.poisson_ratio + 0.8766);
+}
+
+}  // namespace gimdem

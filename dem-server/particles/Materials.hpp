@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Materials and what they make of a contact: every constant of a pair of materials, computed once.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/Case.hpp"
+#include "exec/Buffer.hpp"
+
+namespace gimdem
+{
+
+/// Constants of a pair of materials in contact, theory.md (D.3), (D.4), (D.8).
+struct ContactConstants
+{
+    double young_eff;      ///< E*, (D.3) [Pa]
+    double shear_eff;      ///< G*, (D.4) [Pa]
+    double damping_ratio;  ///< beta <= 0, (D.8) [1]
+    double friction;       ///< Coulomb coefficient [1]
+};
+
+/// (D.3), (D.4), (D.8) for two materials and their contact. A wall is a material like any other.
+ContactConstants contact_constants(MaterialSettings const& a, MaterialSettings const& b,
+                                   ContactSettings const& contact);
+
+/// All pairs, as a square table that kernels index by [material of i * count + material of j].
+class Materials
+{
+public:
+    explicit Materials(Case const& settings);
+
+    int count() const { return static_cast<int>(settings_.size()); }
+    MaterialSettings const& operator[](int material) const { return settings_[static_cast<std::size_t>(material)]; }
+    int number_of(std::string_view name) const;  ///< throws UserError for a name that is not there
+    exec::View<ContactConstants const> table() const { return table_.view(); }
+
+    /// Rayleigh time [s] of a sphere of this material, theory.md (D.14): pi r sqrt(rho/G) / (0.1631 nu + 0.8766).
+    double rayleigh_time(int material, double radius) const;
+
+private:
+    std::vector<MaterialSettings> settings_;
+    exec::Buffer<ContactConstants> table_;
+};
+
+}  // namespace gimdem

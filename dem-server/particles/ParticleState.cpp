@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "particles/ParticleState.hpp"
+
+namespace gimdem
+{
+
+ParticleView ParticleState::view()
+{
+    return {position.view().data, velocity.view().data, angular_velocity.view().data,      force.view().data,
+            torque.view().data,   material.view().data, static_cast<std::int64_t>(count())};
+}
+
+void ParticleState::resize(std::int64_t count)
+{
+    position.resize(count);
+    velocity.resize(count);
+    angular_velocity.resize(count);
+    force.resize(count);
+    torque.resize(count);
+    material.resize(count);
+    id.resize(count);
+}
+
+void ParticleState::permute(std::span<std::int32_t const> order)
+{
+    gimdem::permute(position, order);
+    gimdem::permute(velocity, order);
+    gimdem::permute(angular_velocity, order);
+    gimdem::permute(force, order);
+    gimdem::permute(torque, order);
+    gimdem::permute(material, order);
+    gimdem::permute(id, order);
+}
+
+double ParticleState::volume(std::int64_t i) const
+{
+    return sphere_volume(position[i].w);
+}
+
+double ParticleState::mass(std::int64_t i) const
+{
+    return 1 / velocity[i].w;
+}
+
+}  // namespace gimdem

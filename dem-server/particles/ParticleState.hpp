@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The state of all particles: structure of arrays of aligned quadruples, kept in the order of the search grid.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "exec/Buffer.hpp"
+#include "exec/Vector.hpp"
+
+namespace gimdem
+{
+
+/// What kernels see of the particles.
+struct ParticleView
+{
+    Quad* position;          ///< centre [m], w: radius [m]
+    Quad* velocity;          ///< [m/s], w: 1/mass [1/kg]
+    Quad* angular_velocity;  ///< [rad/s], w: 1/moment of inertia [1/(kg m^2)]
+    Quad* force;             ///< contacts and pressure gradient; gravity and drag enter in the kick [N]
+    Quad* torque;            ///< [N m]
+    std::int32_t* material;  ///< number in the table of materials
+    std::int64_t count;
+};
+
+/// What a particle received over a coupling step: kept for the momentum exchange and the balance.
+struct Impulse
+{
+    Quad drag;  ///< time integral of the drag force [N s], w: of its coefficient k [kg]
+    Quad wall;  ///< time integral of the walls' force [N s]
+};
+
+/// Owns the arrays. Everything here, in this order, is what a restart needs of the particles.
+struct ParticleState
+{
+    exec::Buffer<Quad> position;
+    exec::Buffer<Quad> velocity;
+    exec::Buffer<Quad> angular_velocity;
+    exec::Buffer<Quad> force;
+    exec::Buffer<Quad> torque;
+    exec::Buffer<std::int32_t> material;
+    exec::Buffer<std::int64_t> id;  ///< never changes, whatever the order in memory
+
+    std::int64_t count() const { return position.size(); }
+    ParticleView view();
+    void resize(std::int64_t count);
+
+    /// Put the particle that was at order[i] at i.
+    void permute(std::span<std::int32_t const> order);
+
+    double volume(std::int64_t i) const;  ///< [m^3]
+    double mass(std::int64_t i) const;    ///< [kg]
+};
+
+/// Volume of a sphere [m^3] of radius [m].
+GIMDEM_HD inline double sphere_volume(double radius)
+{
+    return 4.0 / 3.0 * 3.14159265358979323846 * radius * radius * radius;
+}
+
+/// dst[i] = src[order[i]] for all i, by way of a copy.
+template <class T>
+void permute(exec::Buffer<T>& values, std::span<std::int32_t const> order)
+{
+    exec::Buffer<T> const old = values;
+    for (std::size_t i = 0; i < order.size(); ++i)
+        values[static_cast<std::int64_t>(i)] = old[order[i]];
+}
+
+}  // namespace gimdem

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Pairs of particles that touch or may soon touch: a Verlet list built from a grid of cells, rebuilt when a particle
+/// has moved more than half the skin.
+#pragma once
+
+#include <cstdint>
+
+#include "exec/Buffer.hpp"
+#include "exec/Execution.hpp"
+#include "exec/Sort.hpp"
+#include "particles/ParticleState.hpp"
+#include "search/CellGrid.hpp"
+
+namespace gimdem
+{
+
+/// The pairs, each once, in rising (first, second); and the same by second member, for sums without atomics.
+struct NeighborList
+{
+    exec::Buffer<std::int32_t> first;        ///< shape=(n_pairs,), particle i of the pair
+    exec::Buffer<std::int32_t> second;       ///< shape=(n_pairs,), particle j > i
+    exec::Buffer<std::int32_t> row_offsets;  ///< shape=(n_particles + 1,): pairs of i are [row_offsets i, i + 1)
+    exec::Groups pairs_by_second;            ///< pairs in which a particle is second
+    exec::Buffer<Quad> displacement;         ///< shape=(n_pairs,), tangential spring of the pair [m]
+    exec::Buffer<Quad> built_at;             ///< shape=(n_particles,), positions when the list was built [m]
+
+    std::int64_t pair_count() const { return first.size(); }
+};
+
+/// Builds the list of pairs closer than the sum of radii + skin.
+class NeighborSearch
+{
+public:
+    NeighborSearch(exec::Execution execution, double skin) : execution_(execution), skin_(skin) {}
+
+    double skin() const { return skin_; }  ///< [m]
+
+    /// True when the list may miss a contact: a particle moved more than skin / 2 since it was built.
+    bool is_stale(ParticleState const& particles, NeighborList const& list) const;
+
+    /// Sorts the particles by the cells of a grid, lists the pairs and carries the tangential springs along. Returns
+    /// the permutation: the particle now at i was at order[i]. Throws UserError for a position that is not finite.
+    std::span<std::int32_t const> build(ParticleState& particles, NeighborList& list);
+
+private:
+    void sort_into_cells(ParticleState& particles);
+    void list_pairs(ParticleState const& particles, NeighborList& list);
+    void carry_springs(NeighborList const& old, NeighborList& list);
+
+    exec::Execution execution_;
+    double skin_;
+    CellGrid grid_;
+    exec::Buffer<std::int32_t> cell_of_;
+    exec::Groups by_cell_;
+    NeighborList old_;
+};
+
+}  // namespace gimdem
