@@ -80,7 +80,7 @@ struct InsertionSettings
     double jitter = 0;               ///< lattice: largest random displacement per axis [m]
     std::uint64_t seed = 1;
     Triple velocity{0, 0, 0};        ///< [m/s]
-    /// file: CSV with the header x,y,z[,radius][,vx,vy,vz] [m, m/s]; in the document relative to it, here resolved
+    /// file: CSV with the header x,y,z[,radius][,vx,vy,vz] [m, m/s]; relative to the case file, here absolute
     std::filesystem::path file;
 };
 

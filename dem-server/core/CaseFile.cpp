@@ -29,12 +29,12 @@ toml::table parse_toml(std::string const& text, std::string const& file)
     }
 }
 
-/// Paths in a case file are relative to the file.
+/// Paths in a case file are relative to the file; absolute ones do not depend on where they are used.
 void resolve_paths(Case& input)
 {
     for (auto& insertion : input.insertion)
         if (!insertion.file.empty() && insertion.file.is_relative())
-            insertion.file = input.file.parent_path() / insertion.file;
+            insertion.file = std::filesystem::absolute(input.file.parent_path() / insertion.file);
 }
 
 }  // namespace

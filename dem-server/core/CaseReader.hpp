@@ -31,7 +31,7 @@ Rule at_least(double low);               ///< >= low
 Rule within(double low, double high);    ///< in [low, high]
 Rule between(double low, double high);   ///< in (low, high)
 Rule fraction(double low, double high);  ///< in (low, high]
-Rule one_of(std::vector<std::string> words);
+Rule one_of(std::vector<std::string> const& words);
 Rule not_empty();
 Rule endpoint();  ///< ipc | ipc:///path | tcp://host:port
 

@@ -47,7 +47,7 @@ Rule fraction(double low, double high)
             {}};
 }
 
-Rule one_of(std::vector<std::string> words)
+Rule one_of(std::vector<std::string> const& words)
 {
     std::string text;
     for (auto const& word : words)
@@ -59,7 +59,7 @@ Rule one_of(std::vector<std::string> words)
 
 Rule not_empty()
 {
-    return {"a non-empty text", {}, [](std::string const& text) { return !text.empty(); }, {}};
+    return {"not empty", {}, [](std::string const& text) { return !text.empty(); }, {}};
 }
 
 namespace

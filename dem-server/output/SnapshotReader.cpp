@@ -43,7 +43,8 @@ struct SnapshotReader::Image
 {
     Image(std::filesystem::path const& place, std::string const& kind) : path(place), file(open_checked(place, kind)) {}
 
-    bool has_array(std::string const& name) const;
+    // both HDF5 functions are negative where a group on the way is absent
+    bool has_array(std::string const& name) const { return H5Lexists(file.get(), name.c_str(), H5P_DEFAULT) > 0; }
     bool has_value(std::string const& name) const { return H5Aexists(file.get(), name.c_str()) > 0; }
     Handle array(std::string const& name) const;
     Handle value(std::string const& name) const;
@@ -65,14 +66,6 @@ void SnapshotReader::Image::fail(std::string const& problem) const
     throw UserError("snapshot " + path.string() + ' ' + problem +
                     " (another program or case wrote it); remove it, so "
                     "that it is made again");
-}
-
-bool SnapshotReader::Image::has_array(std::string const& name) const
-{
-    // HDF5 fails on a path whose groups are absent, so look at each of them
-    for (auto end = name.find('/'); end != std::string::npos; end = name.find('/', end + 1))
-        if (H5Lexists(file.get(), name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-    return H5Lexists(file.get(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
 Handle SnapshotReader::Image::array(std::string const& name) const

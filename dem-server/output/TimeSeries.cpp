@@ -16,7 +16,7 @@ namespace
 /// A heading as CSV: quoted where a comma or quote in it would be taken for the end of the column.
 std::string heading(Column const& column)
 {
-    std::string const text = column.name + " [" + column.unit + ']';
+    std::string text = column.name + " [" + column.unit + ']';
     if (text.find_first_of(",\"\n") == std::string::npos) return text;
     std::string quoted = "\"";
     for (char const c : text)
@@ -32,7 +32,7 @@ void add_cell(std::string& line, std::string const& cell)
 
 }  // namespace
 
-TimeSeries::TimeSeries(std::filesystem::path file, std::vector<Column> columns)
+TimeSeries::TimeSeries(std::filesystem::path file, std::vector<Column> const& columns)
     : file_(std::move(file)), column_count_(columns.size())
 {
     if (file_.has_parent_path()) make_folder(file_.parent_path());

@@ -26,7 +26,7 @@ class TimeSeries
 {
 public:
     /// Create or replace `file`, with its folders. Throws UserError where that cannot be done.
-    TimeSeries(std::filesystem::path file, std::vector<Column> columns);
+    TimeSeries(std::filesystem::path file, std::vector<Column> const& columns);
 
     /// Write one row, values in the order of the columns.
     /// @pre values.size() is the number of columns (else std::invalid_argument).

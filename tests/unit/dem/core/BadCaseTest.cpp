@@ -109,7 +109,7 @@ Mistake const mistakes[] = {
      "case.toml:8: \"endpoint\" in [coupling] is \"tcp://127.0.0.1\" (must be ipc | ipc:///path | tcp://host:port); "
      "write e.g. endpoint = \"tcp://127.0.0.1:5570\""},
     {"EmptyName", "\"steel\"", "\"\"",
-     "case.toml:22: \"name\" in [[materials]] is \"\" (must be a non-empty text); write e.g. name = \"bead\""},
+     "case.toml:22: \"name\" in [[materials]] is \"\" (must be not empty); write e.g. name = \"bead\""},
 
     // between settings
     {"GridNotOnOffer", "grid = \"B\"", "grid = \"C\"",

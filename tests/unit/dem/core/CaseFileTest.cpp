@@ -120,6 +120,8 @@ TEST(CaseFile, PositionsAreFoundBesideTheCase)
     Case const input = parse_case(text, folder.path / "case.toml");
 
     EXPECT_EQ(input.insertion[0].file, folder.path / "start.csv");
+    auto const relative = std::filesystem::relative(folder.path / "case.toml");
+    EXPECT_TRUE(parse_case(text, relative).insertion[0].file.is_absolute());
     std::filesystem::remove(folder.path / "start.csv");
     EXPECT_THROW(parse_case(text, folder.path / "case.toml"), UserError);
 }
