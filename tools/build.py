@@ -15,7 +15,7 @@ from pathlib import Path
 from console import ROOT, UserError, build_dir, say, shown
 
 PROGRESS = re.compile(r"\[(\d+)/(\d+)\] ")
-FAILURE = re.compile(r"error|FAILED|CMake Error", re.IGNORECASE)
+FAILURE = re.compile(r"^FAILED: |: (fatal )?error: |CMake Error|^ninja: error|undefined reference")
 
 
 def build(targets: Sequence[str] = ()) -> None:

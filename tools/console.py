@@ -36,12 +36,9 @@ def openfoam_client_binary() -> Path:
 
 
 def shown(path: Path) -> str:
-    """A path as one would type it here."""
-    try:
-        relative = os.path.relpath(path)
-    except ValueError:
-        return str(path)
-    return str(path) if relative.startswith("../../..") else relative
+    """A path as one would type it here: relative where it is below the current folder."""
+    relative = os.path.relpath(path)
+    return str(path) if relative.startswith("..") else relative
 
 
 def tail_of(path: Path, lines: int) -> str:

@@ -14,6 +14,7 @@ import tty
 
 CLEAR_LINE = "\x1b[K"
 OWN_LINE = re.compile(r"^gimdem-server: ")  # its errors and its news; an error is the last thing that it says
+CONNECTED = re.compile(r"^gimdem-server: .* connected$")
 NEWS_AFTER = 0.5  # a line after which the server lives on for so long is no error [s]
 
 
@@ -24,6 +25,7 @@ class Relay:
         self.on_terminal = sys.stderr.isatty()
         self.reader, self.child_end = self._open_terminal() if self.on_terminal else os.pipe()
         os.set_blocking(self.reader, False)
+        self.client_connected = False
         self._held: list[str] = []  # the server's own words, until it is clear that it lives on
         self._held_since = 0.0
         self._pending = ""  # of a line that is not complete
@@ -90,6 +92,8 @@ class Relay:
         visible = line.rsplit("\r", 1)[-1].removeprefix(CLEAR_LINE).rstrip()
         if OWN_LINE.match(visible):
             self._release()
+        if CONNECTED.match(visible):
+            self.client_connected = True
         if OWN_LINE.match(visible) or (self._held and visible.startswith("  ")):
             self._held.append(visible)
             self._held_since = time.monotonic()

@@ -10,11 +10,14 @@ from results import Figure
 
 def print_results(folder: Path, wall_time: float) -> None:
     """Draw and sum up what the run left. A result that is missing is told, and the rest is shown."""
-    plots = drawn_plots(folder)
-    figures = figures_of_run(folder)
+    has_samples = (folder / "bed.csv").exists()
+    plots = drawn_plots(folder) if has_samples else []
+    figures = figures_of_run(folder) if has_samples else []
     print(f"\nsummary of {shown(folder)} ({duration(wall_time)})")
     for figure in figures:
         print(figure)
+    if not has_samples:
+        print("no figures: the run ended before its first sample")
     print("results")
     paths = {
         "ParaView": folder / "results.pvd", "series": folder / "bed.csv", "summary": folder / "summary.json",

@@ -90,7 +90,7 @@ class Supervisor:
     """Start the server, then the client; see both to their end."""
 
     def __init__(self, timeout: float) -> None:
-        self.patience = timeout + 5  # for the other process to notice that its peer is gone [s]
+        self.patience = timeout + 5  # for a process to notice that its peer, once connected, is gone [s]
 
     def run(
         self, start_server: Callable[[int], subprocess.Popen[bytes]], server_ready: Callable[[], bool],
@@ -127,7 +127,8 @@ class Supervisor:
                 self._obey(outcome, stop)
             if len(alive) < len(outcome.children()):
                 ended = next(child for child in outcome.children() if child not in alive)
-                self._hurry(alive[0], time.monotonic() - (ended.ended_at or 0.0))
+                patience = self.patience if relay.client_connected else LAST_WORDS
+                self._hurry(alive[0], time.monotonic() - (ended.ended_at or 0.0), patience)
 
     @staticmethod
     def _obey(outcome: Outcome, stop: StopRequest) -> None:
@@ -141,10 +142,11 @@ class Supervisor:
             for child in outcome.children():
                 child.tell(signal.SIGKILL)
 
-    def _hurry(self, child: Child, alone_for: float) -> None:
+    @staticmethod
+    def _hurry(child: Child, alone_for: float, patience: float) -> None:
         """A process whose peer is gone ends by itself; if not in time, it is made to."""
-        if alone_for > self.patience + LAST_WORDS:
+        if alone_for > patience + LAST_WORDS:
             child.tell(signal.SIGKILL)
-        elif alone_for > self.patience and not child.forced:
+        elif alone_for > patience and not child.forced:
             child.forced = True
             child.tell(signal.SIGTERM)
