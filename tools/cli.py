@@ -107,6 +107,10 @@ def main(arguments: list[str]) -> int:
         if str(error):
             print(f"gimdem: error: {error}", file=sys.stderr)
         return error.code
+    except OSError as error:  # a full disk, a folder that is somebody else's
+        print(f"gimdem: error: {error.filename or 'a file'}: {error.strerror} (the launcher needs it); see to it and try again",
+              file=sys.stderr)
+        return 1
     except KeyboardInterrupt:
         print("\ngimdem: interrupted", file=sys.stderr)
         return 130
