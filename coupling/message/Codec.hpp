@@ -17,7 +17,7 @@ Message decode(transport::Frames frames);
 /// The kind of a message, from its first frame alone; KIND_NOT_SET if it cannot be read.
 Kind peek_kind(transport::Frame const& envelope);
 
-/// Is this how a peer may begin? Heartbeats and last words of some earlier session are not.
+/// Is this how a client may begin? Heartbeats and last words of some earlier session are not.
 inline bool may_open(Kind kind)
 {
     return kind != Kind::kHeartbeat && kind != Kind::kError && kind != Kind::kGoodbye;

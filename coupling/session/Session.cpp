@@ -60,7 +60,8 @@ void Session::open(transport::Socket socket)
     transport::ChannelHooks hooks;
     hooks.deliver = [this](transport::Frames frames, Time arrival) { return on_frames(std::move(frames), arrival); };
     hooks.heartbeat = [this] { return on_heartbeat_due(); };
-    hooks.may_open = [](transport::Frame const& first) { return message::may_open(message::peek_kind(first)); };
+    hooks.may_open = [this](transport::Frame const& first)
+    { return role_ == Role::client || message::may_open(message::peek_kind(first)); };
     hooks.answer_stranger = [this](transport::Frames frames) { return on_stranger(std::move(frames)); };
     hooks.ended = [this](transport::Ending ending) { inbox_.end(std::move(ending)); };
     endpoint_ = socket.endpoint();
@@ -181,9 +182,10 @@ void Session::fail_by_peer(Message const& message, std::string const& awaited)
     message::ErrorReport const report = message::unpack_error(message);
     bool const special = report.fault == Fault::mesh || report.fault == Fault::version;
     set_peer_name(report.name);
-    std::string const text = peer_name() + (report.fault == Fault::mesh ? " refused the mesh: " : " ended the run: ") + report.reason + " (it was in state " + report.state +
-                             ", step " + std::to_string(report.step) + "); " + our_name() + " was waiting for " +
-                             awaited + " " + here();
+    std::string const text = peer_name() + (report.fault == Fault::mesh ? " refused the mesh: " : " ended the run: ") +
+                             report.reason + " (it was in state " + report.state + ", step " +
+                             std::to_string(report.step) + "); " + our_name() + " was waiting for " + awaited + " " +
+                             here();
     fall(text);
     throw CouplingError(special ? report.fault : Fault::peer, text);
 }

@@ -16,7 +16,7 @@ namespace
 using namespace coupling;
 using Clock = std::chrono::steady_clock;
 
-double constexpr least_bytes = 1.4e6;  ///< per step, both ways together
+double constexpr least_bytes = (19.0 + 5.0) * 8 * 26 * 2 * 140;  ///< numbers of both ways [byte]
 
 /// All fluid fields, and the solid fields that a client gets by default.
 class BigFields
