@@ -10,7 +10,6 @@ namespace
 {
 
 using namespace gimdem::test;
-using gimdem::output::ParticleFrame;
 using gimdem::output::write_vtk_particles;
 using testing::ElementsAre;
 using testing::HasSubstr;
