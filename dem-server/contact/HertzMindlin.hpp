@@ -35,34 +35,30 @@ struct HertzMindlin
 
     GIMDEM_HD ContactForce operator()(ContactGeometry const& contact, Vec3& displacement) const
     {
-        // Stiffnesses: S_n = 2 E* a, S_t = 8 G* a with the contact radius a, (D.5).
+        // Stiffnesses S_n = 2 E* a, S_t = 8 G* a with the contact radius a, (D.5); dashpots 2 sqrt(5/6) |beta| sqrt(S
+        // m*).
         double const a = std::sqrt(contact.radius_eff * contact.overlap);
         double const normal_stiffness = 2 * constants.young_eff * a;
-        double const tangential_stiffness = 8 * constants.shear_eff * a;
-        double const damping = -2 * std::sqrt(5.0 / 6.0) * constants.damping_ratio;
-        double const root_mass = std::sqrt(contact.mass_eff);
+        double const tangential_stiffness = constants.stiffness_ratio * normal_stiffness;
+        double const normal_dashpot = constants.damping * std::sqrt(normal_stiffness * contact.mass_eff);
+        double const tangential_dashpot = constants.root_stiffness_ratio * normal_dashpot;
 
         // Normal: Hertz spring and dashpot, (D.6), (D.7).
         double const v_n = contact.velocity.dot(contact.normal);
-        double const normal_force =
-            2.0 / 3.0 * normal_stiffness * contact.overlap - damping * std::sqrt(normal_stiffness) * root_mass * v_n;
+        double const normal_force = 2.0 / 3.0 * normal_stiffness * contact.overlap - normal_dashpot * v_n;
 
         // Tangential: turn the spring with the contact plane, stretch it, (D.9), (D.10).
         Vec3 const v_t = contact.velocity - v_n * contact.normal;
         turn_into_plane(contact.normal, displacement);
         displacement += v_t * dt;
-        Vec3 tangential = -tangential_stiffness * displacement;
 
         // Coulomb: a sliding spring is as long as friction can hold, and has no dashpot, (D.11), (D.12).
         double const limit = constants.friction * std::abs(normal_force);
-        double const spring = tangential.norm();
-        if (spring > limit)
-        {
-            tangential *= limit / spring;
-            displacement = tangential / -tangential_stiffness;
-        }
-        else
-            tangential -= damping * std::sqrt(tangential_stiffness) * root_mass * v_t;
+        double const spring2 = tangential_stiffness * tangential_stiffness * displacement.squaredNorm();
+        bool const slides = spring2 > limit * limit;
+        if (slides) displacement *= limit / std::sqrt(spring2);
+        Vec3 tangential = -tangential_stiffness * displacement;
+        if (!slides) tangential -= tangential_dashpot * v_t;
         return {normal_force * contact.normal + tangential, tangential};
     }
 

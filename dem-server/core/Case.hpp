@@ -18,10 +18,10 @@ using Triple = std::array<double, 3>;
 /// [run]
 struct RunSettings
 {
-    double until = 0;                    ///< simulated time [s]
-    std::string client = "openfoam";     ///< who solves the fluid
-    std::string grid;                    ///< chosen mesh variant, empty where the case has one mesh
-    std::vector<std::string> grids;      ///< mesh variants on offer
+    double until = 0;                 ///< simulated time [s]
+    std::string client = "openfoam";  ///< who solves the fluid
+    std::string grid;                 ///< chosen mesh variant, empty where the case has one mesh
+    std::vector<std::string> grids;   ///< mesh variants on offer
 };
 
 /// [coupling]
@@ -36,11 +36,11 @@ struct CouplingSettings
 /// [dem]
 struct DemSettings
 {
-    double time_step = 0;       ///< upper bound [s]
-    Triple gravity{0, 0, 0};    ///< [m/s^2]
-    int threads = 0;            ///< 0: all cores
+    double time_step = 0;            ///< upper bound [s]
+    Triple gravity{0, 0, 0};         ///< [m/s^2]
+    int threads = 0;                 ///< 0: all cores
     std::string backend = "openmp";  ///< serial | openmp
-    double skin = 0.1;          ///< of the neighbour list, in units of the smallest radius [1]
+    double skin = 0.1;               ///< of the neighbour list, in units of the smallest radius [1]
 };
 
 /// [[materials]]
@@ -71,15 +71,15 @@ struct WallSettings
 struct InsertionSettings
 {
     std::string material;
-    double diameter = 0;             ///< [m]; for "file" a default where the file has no radius column
-    double mass = 0;                 ///< total [kg], 0: not given
-    std::int64_t count = 0;          ///< 0: not given
-    std::string arrangement = "lattice";      ///< lattice | file
-    std::array<Triple, 2> box{};     ///< lattice: corners [m]
-    double spacing = 0;              ///< lattice: distance of neighbours [m]
-    double jitter = 0;               ///< lattice: largest random displacement per axis [m]
+    double diameter = 0;                  ///< [m]; for "file" a default where the file has no radius column
+    double mass = 0;                      ///< total [kg], 0: not given
+    std::int64_t count = 0;               ///< 0: not given
+    std::string arrangement = "lattice";  ///< lattice | file
+    std::array<Triple, 2> box{};          ///< lattice: corners [m]
+    double spacing = 0;                   ///< lattice: distance of neighbours [m]
+    double jitter = 0;                    ///< lattice: largest random displacement per axis [m]
     std::uint64_t seed = 1;
-    Triple velocity{0, 0, 0};        ///< [m/s]
+    Triple velocity{0, 0, 0};  ///< [m/s]
     /// file: CSV with the header x,y,z[,radius][,vx,vy,vz] [m, m/s]; relative to the case file, here absolute
     std::filesystem::path file;
 };
@@ -87,8 +87,8 @@ struct InsertionSettings
 /// [settle]
 struct SettleSettings
 {
-    double duration = 0;            ///< at most [s]; 0: do not settle
-    double kinetic_energy = 0;      ///< stop below this mean kinetic energy per particle [J]
+    double duration = 0;        ///< at most [s]; 0: do not settle
+    double kinetic_energy = 0;  ///< stop below this mean kinetic energy per particle [J]
 };
 
 /// [fluid_forces]
@@ -119,7 +119,7 @@ struct OutputSettings
     double sample_interval = 1e-3;    ///< of the time series [s]
     double particle_interval = 1e-2;  ///< of the ParaView files [s]; 0: none
     std::vector<PlaneSettings> planes;
-    std::string inlet;                ///< patches between which the pressure drop is taken
+    std::string inlet;  ///< patches between which the pressure drop is taken
     std::string outlet;
 };
 

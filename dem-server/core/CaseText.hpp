@@ -51,6 +51,9 @@ std::string to_text(std::array<T, size> const& values)
     return list_to_text(values);
 }
 
-inline std::string to_text(std::vector<std::string> const& values) { return list_to_text(values); }
+inline std::string to_text(std::vector<std::string> const& values)
+{
+    return list_to_text(values);
+}
 
 }  // namespace gimdem::case_file

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <span>
@@ -82,7 +83,7 @@ private:
         std::size_t const bytes = (static_cast<std::size_t>(capacity) * sizeof(T) + line - 1) / line * line;
         std::unique_ptr<T, Free> grown(static_cast<T*>(std::aligned_alloc(line, bytes)));
         if (!grown) throw std::bad_alloc();
-        if (data_) std::copy_n(data_.get(), size_, grown.get());
+        if (capacity_ > 0) std::memcpy(grown.get(), data_.get(), static_cast<std::size_t>(size_) * sizeof(T));
         data_ = std::move(grown);
         capacity_ = capacity;
     }

@@ -15,18 +15,24 @@ ContactConstants contact_constants(MaterialSettings const& a, MaterialSettings c
     { return (1 - m.poisson_ratio * m.poisson_ratio) / m.young_modulus; };
     auto const shear_compliance = [](MaterialSettings const& m)
     { return 2 * (2 - m.poisson_ratio) * (1 + m.poisson_ratio) / m.young_modulus; };
+    double const young_eff = 1 / (compliance(a) + compliance(b));
+    double const shear_eff = 1 / (shear_compliance(a) + shear_compliance(b));
     double const log_e = std::log(contact.restitution);
-    return {.young_eff = 1 / (compliance(a) + compliance(b)),
-            .shear_eff = 1 / (shear_compliance(a) + shear_compliance(b)),
-            .damping_ratio = log_e / std::sqrt(log_e * log_e + std::numbers::pi * std::numbers::pi),
-            .friction = contact.friction};
+    double const damping_ratio = log_e / std::sqrt(log_e * log_e + std::numbers::pi * std::numbers::pi);
+    return {.young_eff = young_eff,
+            .shear_eff = shear_eff,
+            .damping_ratio = damping_ratio,
+            .friction = contact.friction,
+            .damping = -2 * std::sqrt(5.0 / 6.0) * damping_ratio,
+            .stiffness_ratio = 4 * shear_eff / young_eff,
+            .root_stiffness_ratio = std::sqrt(4 * shear_eff / young_eff)};
 }
 
 Materials::Materials(Case const& settings) : settings_(settings.materials)
 {
     int const n = count();
     table_.resize(n * n);
-    table_.fill({0, 0, 0, 0});
+    table_.fill({});
     for (ContactSettings const& contact : settings.contacts)
     {
         int const a = number_of(contact.pair[0]);

@@ -19,6 +19,11 @@ struct ContactConstants
     double shear_eff;      ///< G*, (D.4) [Pa]
     double damping_ratio;  ///< beta <= 0, (D.8) [1]
     double friction;       ///< Coulomb coefficient [1]
+
+    // What the law needs of the four above, so that no contact computes it again.
+    double damping;               ///< -2 sqrt(5/6) beta >= 0 [1]
+    double stiffness_ratio;       ///< S_t / S_n = 4 G* / E* [1]
+    double root_stiffness_ratio;  ///< its square root [1]
 };
 
 /// (D.3), (D.4), (D.8) for two materials and their contact. A wall is a material like any other.
