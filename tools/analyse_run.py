@@ -18,11 +18,14 @@ from console import UserError
 from results import BedSeries, Figure, read_json, read_summary
 
 FLUIDISED = (0.4, 1.0)  # [s]
+NOT_AVERAGED = ("time", "void_fraction_max", "void_fraction_clips", "momentum_imbalance", "volume_imbalance",
+                "continuity_error", "pressure_iterations")  # the worst or the sum counts: the server's figures have it
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("run", metavar="RUN_DIR", type=Path, help="folder of a run")
-    parser.add_argument("--from", dest="begin", metavar="T", type=float, default=FLUIDISED[0], help="means from [s] (0.4)")
+    parser.add_argument("--from", dest="begin", metavar="T", type=float, default=FLUIDISED[0],
+                        help="means from [s] (0.4)")
     parser.add_argument("--to", dest="end", metavar="T", type=float, default=FLUIDISED[1], help="means to [s] (1.0)")
     parser.add_argument("--compare", metavar="RUN_DIR2", type=Path, help="a second run, shown beside the first")
 
@@ -43,7 +46,8 @@ def show_figures(options: argparse.Namespace) -> int:
         for figure in figures:
             print(figure)
     else:
-        print_side_by_side(options.run, figures, options.compare, figures_of(options.compare, options.begin, options.end))
+        others = figures_of(options.compare, options.begin, options.end)
+        print_side_by_side(options.run, figures, options.compare, others)
     return 0
 
 
@@ -66,7 +70,7 @@ def time_means(series: BedSeries, begin: float, end: float) -> list[Figure]:
     figures = [Figure("mean_from", float(time[inside][0]), "s"), Figure("mean_to", float(time[inside][-1]), "s")]
     for name in series.names():
         values = series[name][inside]
-        if name == "time" or not np.isfinite(values).all():
+        if name in NOT_AVERAGED or not np.isfinite(values).all():
             continue
         figures.append(Figure(f"mean_{name}", float(values.mean()), series.units[name]))
         figures.append(Figure(f"deviation_{name}", float(values.std()), series.units[name]))
@@ -96,8 +100,7 @@ def force_balance(values: dict[str, float]) -> list[Figure]:
 
 def print_side_by_side(first: Path, left: list[Figure], second: Path, right: list[Figure]) -> None:
     """A table of both runs and the change from the first to the second."""
-    labels = [read_json(folder / "run.json").get("settings", {}).get("schedule", folder.name) for folder in (first, second)]
-    print(f"{'':<40} {labels[0]:>14} {labels[1]:>14} {'change':>9}")
+    print(f"{'':<40} {schedule_of(first):>14} {schedule_of(second):>14} {'change':>9}")
     others = {figure.name: figure for figure in right}
     for figure in left:
         other = others.get(figure.name)
@@ -105,6 +108,11 @@ def print_side_by_side(first: Path, left: list[Figure], second: Path, right: lis
             continue
         change = f"{100 * (other.value / figure.value - 1):+.2f} %" if figure.value else ""
         print(f"{f'{figure.name} [{figure.unit}]':<40} {figure.value:>14.6g} {other.value:>14.6g} {change:>9}")
+
+
+def schedule_of(folder: Path) -> str:
+    """What tells two runs of one case apart, or the folder's name."""
+    return read_json(folder / "run.json").get("settings", {}).get("schedule", folder.name)
 
 
 if __name__ == "__main__":

@@ -89,7 +89,8 @@ def clean(_options: argparse.Namespace) -> int:
     folder = build_dir()
     if folder.exists():
         if not (folder / "CMakeCache.txt").exists() and any(folder.iterdir()):
-            raise UserError(f"{shown(folder)} is no build folder (it has no CMakeCache.txt); remove it by hand if it is")
+            raise UserError(f"{shown(folder)} is no build folder (it has no CMakeCache.txt); "
+                            "remove it by hand if it is one")
         shutil.rmtree(folder)
         say("clean", f"removed {shown(folder)}")
     return 0
@@ -99,7 +100,7 @@ def main(arguments: list[str]) -> int:
     top = parser()
     options, rest = top.parse_known_args(arguments)
     if rest and options.command != "test":
-        top.error(f"unknown option {' '.join(rest)}; ./gimdem {options.command} --help lists those of '{options.command}'")
+        top.error(f"unknown option {' '.join(rest)}; ./gimdem {options.command} --help lists those that there are")
     options.rest = rest
     try:
         return options.function(options)
@@ -108,8 +109,8 @@ def main(arguments: list[str]) -> int:
             print(f"gimdem: error: {error}", file=sys.stderr)
         return error.code
     except OSError as error:  # a full disk, a folder that is somebody else's
-        print(f"gimdem: error: {error.filename or 'a file'}: {error.strerror} (the launcher needs it); see to it and try again",
-              file=sys.stderr)
+        print(f"gimdem: error: {error.filename or 'a file'}: {error.strerror} (the launcher needs it); "
+              "see to it and try again", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("\ngimdem: interrupted", file=sys.stderr)

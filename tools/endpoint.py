@@ -35,8 +35,8 @@ class Endpoint:
     def _check_free(self) -> None:
         """Somebody else's server must not get our client."""
         if self.answers():
-            raise UserError(f"the endpoint {self.address} is in use (another run or program listens there); wait for it "
-                            "to end, or change [coupling] endpoint in case.toml")
+            raise UserError(f"the endpoint {self.address} is in use (another run or program listens there); wait for "
+                            "it to end, or change [coupling] endpoint in case.toml")
 
     def answers(self) -> bool:
         """Whether somebody listens."""

@@ -23,7 +23,8 @@ def now() -> str:
 def output_of(command: Sequence[str]) -> str:
     """First line of what a command prints, empty if it cannot tell."""
     try:
-        done = subprocess.run(list(command), capture_output=True, text=True, timeout=10, stdin=subprocess.DEVNULL, cwd=ROOT)
+        done = subprocess.run(list(command), capture_output=True, text=True, timeout=10, cwd=ROOT,
+                              stdin=subprocess.DEVNULL)
     except (OSError, subprocess.TimeoutExpired):
         return ""
     return done.stdout.strip().split("\n")[0] if done.returncode == 0 else ""
@@ -48,13 +49,17 @@ def machine() -> dict[str, Any]:
     }
 
 
+def package_version(name: str) -> str:
+    return output_of(["dpkg-query", "-W", "-f", "${Version}", name])
+
+
 def versions() -> dict[str, str]:
     revision = output_of(["git", "rev-parse", "HEAD"])
     changed = output_of(["git", "status", "--porcelain", "--untracked-files=no"])
     return {
         "gimdem": output_of([str(server_binary()), "--version"]),
         "git_revision": revision + ("+changes" if revision and changed else ""),
-        "openfoam": os.environ.get("WM_PROJECT_VERSION") or output_of(["dpkg-query", "-W", "-f", "${Version}", "openfoam"]),
+        "openfoam": os.environ.get("WM_PROJECT_VERSION") or package_version("openfoam"),
         "python": platform.python_version(),
     }
 

@@ -34,7 +34,8 @@ class BedSeries:
         try:
             header, *rows = file.read_text().splitlines()
         except (OSError, ValueError):
-            raise UserError(f"{shown(file)} is absent or empty (the run wrote no sample); is this a run folder?") from None
+            raise UserError(f"{shown(file)} is absent or empty (the run wrote no sample); "
+                            "give the folder of another run") from None
         parsed = [HEADER.match(title) for title in header.split(",")]
         names = [match["name"] if match else title for match, title in zip(parsed, header.split(","))]
         self.units = {name: match["unit"] if match else "1" for name, match in zip(names, parsed)}

@@ -30,7 +30,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("case", metavar="CASE_DIR", help="a folder with a case.toml")
     parser.add_argument("--client", choices=CLIENTS, help="who solves the fluid (default: as case.toml says)")
     parser.add_argument("--schedule", choices=("serial", "overlapped"), help="who waits for whom (case.toml)")
-    parser.add_argument("--device", choices=("auto", "cuda", "cpu"), default="auto", help="where the particles are computed")
+    parser.add_argument("--device", choices=("auto", "cuda", "cpu"), default="auto",
+                        help="where the particles are computed")
     parser.add_argument("--grid", metavar="X", help="mesh variant of the case (case.toml)")
     parser.add_argument("--until", metavar="T", type=positive, help="simulated time [s] (case.toml)")
     parser.add_argument("--threads", metavar="N", type=count, help="threads of the server; 0: all cores (case.toml)")

@@ -62,8 +62,8 @@ install_missing() {
         echo "gimdem: error: apt could not install what gimdem needs (the whole log is $log); mend that, or run:" >&2
     else
         rm -f "$log"
-        echo "gimdem: error: packages are missing, and installing them needs root (you are not, and sudo cannot be used" \
-            "here); have this run once:" >&2
+        echo "gimdem: error: packages are missing, and installing them needs root (you are not, and sudo cannot be" \
+            "used here); have this run once:" >&2
     fi
     echo "  sudo sh -c 'apt-get update && ${install[*]}'" >&2
     return 1

@@ -31,8 +31,8 @@ class FrontDoorTest(unittest.TestCase):
         (self.folder / "tmp").mkdir()
         self.mark = uuid.uuid4().hex
         self.environment = {
-            **os.environ, MARK: self.mark, "GIMDEM_NO_BUILD": "1", "GIMDEM_NO_SETUP": "1", "PYTHONDONTWRITEBYTECODE": "1",
-            "TMPDIR": str(self.folder / "tmp"),
+            **os.environ, MARK: self.mark, "GIMDEM_NO_BUILD": "1", "GIMDEM_NO_SETUP": "1",
+            "PYTHONDONTWRITEBYTECODE": "1", "TMPDIR": str(self.folder / "tmp"),
         }
 
     def tearDown(self) -> None:

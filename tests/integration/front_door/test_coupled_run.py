@@ -7,7 +7,6 @@ import os
 import signal
 import time
 import unittest
-from pathlib import Path
 
 from front_door import tree_of
 from real_case import RealCaseTest
