@@ -4,8 +4,11 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <regex>
 
 #include "CaseText.hpp"
 #include "core/Case.hpp"
@@ -15,6 +18,7 @@ namespace
 {
 
 using namespace gimdem;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -30,18 +34,20 @@ struct Folder
     std::filesystem::path path;
 };
 
-TEST(CaseFile, ShippedCaseGivesTheNumbersItStates)
-{
-    Case const input = read_case(std::filesystem::path(GIMDEM_CASES) / "wachem-bed/case.toml");
+std::filesystem::path const wachem_bed = std::filesystem::path(GIMDEM_CASES) / "wachem-bed/case.toml";
 
-    EXPECT_EQ(input.run.until, 1.0);
-    EXPECT_EQ(input.run.client, "openfoam");
-    EXPECT_EQ(input.run.grid, "B");
-    EXPECT_THAT(input.run.grids, ElementsAre("A", "B"));
-    EXPECT_EQ(input.coupling.schedule, "serial");
-    EXPECT_EQ(input.coupling.endpoint, "ipc");
-    EXPECT_EQ(input.dem.time_step, 2.5e-5);
-    EXPECT_THAT(input.dem.gravity, ElementsAre(0, 0, -9.81));
+/// The number behind `key =` in a text where the key stands once.
+double number_in(std::string const& text, std::string const& key)
+{
+    std::smatch number;
+    if (!std::regex_search(text, number, std::regex("\\n" + key + " = ([-+.0-9e]+)"))) return NAN;
+    return std::stod(number[1]);
+}
+
+TEST(CaseFile, ShippedCaseHasTheNumbersOfThePaper)
+{
+    Case const input = read_case(wachem_bed);
+
     ASSERT_EQ(input.materials.size(), 1u);
     EXPECT_EQ(input.materials[0].density, 1150.0);
     EXPECT_EQ(input.materials[0].young_modulus, 1.2e5);
@@ -49,16 +55,32 @@ TEST(CaseFile, ShippedCaseGivesTheNumbersItStates)
     ASSERT_EQ(input.contacts.size(), 1u);
     EXPECT_EQ(input.contacts[0].restitution, 0.9);
     EXPECT_EQ(input.contacts[0].friction, 0.3);
-    EXPECT_THAT(input.walls.also, ElementsAre("inlet"));
+    EXPECT_THAT(input.dem.gravity, ElementsAre(0, 0, -9.81));
     ASSERT_EQ(input.insertion.size(), 1u);
     EXPECT_EQ(input.insertion[0].diameter, 1.545e-3);
-    EXPECT_EQ(input.insertion[0].mass, 0.039);
     EXPECT_THAT(input.insertion[0].box[1], ElementsAre(0.09, 0.008, 0.5));
-    ASSERT_TRUE(input.settle.has_value());
-    EXPECT_EQ(input.settle->kinetic_energy, 1e-9);
     ASSERT_EQ(input.output.planes.size(), 1u);
-    EXPECT_EQ(input.output.planes[0].name, "45mm");
     EXPECT_THAT(input.output.planes[0].point, ElementsAre(0, 0, 0.045));
+}
+
+TEST(CaseFile, ShippedCaseGivesTheNumbersItStates)
+{
+    std::ifstream in(wachem_bed);
+    std::string const text(std::istreambuf_iterator<char>(in), {});
+
+    Case const input = read_case(wachem_bed);
+
+    EXPECT_EQ(input.run.until, number_in(text, "until"));
+    EXPECT_EQ(input.coupling.timeout, number_in(text, "timeout"));
+    EXPECT_EQ(input.dem.time_step, number_in(text, "time_step"));
+    EXPECT_EQ(input.insertion.at(0).spacing, number_in(text, "spacing"));
+    EXPECT_EQ(input.insertion.at(0).jitter, number_in(text, "jitter"));
+    EXPECT_EQ(input.settle.value().duration, number_in(text, "duration"));
+    EXPECT_EQ(input.settle.value().kinetic_energy, number_in(text, "kinetic_energy"));
+    EXPECT_EQ(input.mapping.void_fraction_minimum, number_in(text, "void_fraction_minimum"));
+    EXPECT_EQ(input.output.sample_interval, number_in(text, "sample_interval"));
+    EXPECT_EQ(input.output.particle_interval, number_in(text, "particle_interval"));
+    EXPECT_THAT(input.run.grids, Contains(input.run.grid));
 }
 
 TEST(CaseFile, SettingNotGivenKeepsItsDefault)
