@@ -45,7 +45,7 @@ std::string description(Case const& settings)
     std::string text = "settled bed 1\n";
     auto const add = [&](auto const&... values) { ((text += fmt::format("{} ", values)), ...); };
     auto const add_triple = [&](Triple const& t) { add(t[0], t[1], t[2]); };
-    add(settings.dem.time_step, settings.dem.skin);
+    add(settings.dem.time_step);
     add_triple(settings.dem.gravity);
     for (MaterialSettings const& m : settings.materials)
         add(m.name, m.density, m.young_modulus, m.poisson_ratio);

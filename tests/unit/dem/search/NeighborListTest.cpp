@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search/NeighborList.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "TestCase.hpp"
+#include "core/Error.hpp"
+
+namespace
+{
+
+using gimdem::NeighborList;
+using gimdem::NeighborSearch;
+using gimdem::ParticleState;
+using gimdem::Vec3;
+using namespace gimdem::test;
+
+using Pairs = std::set<std::pair<std::int64_t, std::int64_t>>;
+
+Pairs by_brute_force(ParticleState const& p, double skin)
+{
+    Pairs pairs;
+    for (std::int64_t i = 0; i < p.count(); ++i)
+        for (std::int64_t j = 0; j < p.count(); ++j)
+            if (p.id[i] < p.id[j] &&
+                (p.position[i].xyz() - p.position[j].xyz()).norm() < p.position[i].w + p.position[j].w + skin)
+                pairs.emplace(p.id[i], p.id[j]);
+    return pairs;
+}
+
+Pairs ids_of(ParticleState const& p, NeighborList const& list)
+{
+    Pairs pairs;
+    for (std::int64_t k = 0; k < list.pair_count(); ++k)
+    {
+        auto const a = p.id[list.first[k]], b = p.id[list.second[k]];
+        pairs.emplace(std::min(a, b), std::max(a, b));
+    }
+    return pairs;
+}
+
+TEST(NeighborList, HoldsThePairsOfBruteForceEachOnce)
+{
+    for (double const smallest : {0.05, 0.005})  // equal-ish radii and 10:1
+    {
+        ParticleState p = particles_of(random_spheres(400, {0, 0, 0}, {1, 0.7, 1.3}, smallest, 0.05));
+        Pairs const expected = by_brute_force(p, 0.01);
+        NeighborList list;
+        NeighborSearch(serial, 0.01).build(p, list);
+        EXPECT_EQ(ids_of(p, list), expected);
+        EXPECT_EQ(static_cast<std::size_t>(list.pair_count()), expected.size());
+        EXPECT_GT(expected.size(), 50u);
+    }
+}
+
+TEST(NeighborList, SpringsFollowTheirPairsThroughAReordering)
+{
+    ParticleState p = particles_of(random_spheres(200, {0, 0, 0}, {1, 1, 1}, 0.05, 0.05));
+    NeighborList list;
+    NeighborSearch search(serial, 0.05);
+    search.build(p, list);
+    // A spring that tells its pair, pointing from the higher id to the lower one.
+    auto const expected = [](std::int64_t a, std::int64_t b)
+    {
+        double const sign = a < b ? 1 : -1;
+        return Vec3(sign * static_cast<double>(a + b), sign * static_cast<double>(a * b), sign);
+    };
+    for (std::int64_t k = 0; k < list.pair_count(); ++k)
+        list.displacement[k] = gimdem::Quad::of(expected(p.id[list.first[k]], p.id[list.second[k]]), 0);
+    Pairs const before = ids_of(p, list);
+    for (std::int64_t i = 0; i < p.count(); ++i)
+        p.position[i].set_xyz(Vec3(1, 1, 1) - 1.01 * p.position[i].xyz());
+
+    search.build(p, list);
+
+    int kept = 0;
+    for (std::int64_t k = 0; k < list.pair_count(); ++k)
+    {
+        auto const a = p.id[list.first[k]], b = p.id[list.second[k]];
+        bool const known = before.contains({std::min(a, b), std::max(a, b)});
+        EXPECT_EQ(list.displacement[k].xyz(), known ? expected(a, b) : Vec3::Zero());
+        kept += known;
+    }
+    EXPECT_GT(kept, 100);
+}
+
+TEST(NeighborList, GoesStaleBeyondHalfTheSkin)
+{
+    ParticleState p = particles_of(random_spheres(10, {0, 0, 0}, {1, 1, 1}, 0.05, 0.05));
+    NeighborList list;
+    NeighborSearch search(serial, 0.02);
+    EXPECT_TRUE(search.is_stale(p, list));
+    search.build(p, list);
+    p.position[3].y += 0.0099;
+    EXPECT_FALSE(search.is_stale(p, list));
+    p.position[3].y += 0.0002;
+    EXPECT_TRUE(search.is_stale(p, list));
+    p.position[3].y = NAN;
+    EXPECT_TRUE(search.is_stale(p, list));
+    EXPECT_THROW(search.build(p, list), gimdem::UserError);
+}
+
+TEST(NeighborList, NoParticlesAndOneParticleAreFine)
+{
+    for (int const count : {0, 1})
+    {
+        ParticleState p = particles_of(random_spheres(count, {0, 0, 0}, {1, 1, 1}, 0.05, 0.05));
+        NeighborList list;
+        NeighborSearch(serial, 0.02).build(p, list);
+        EXPECT_EQ(list.pair_count(), 0);
+    }
+}
+
+}  // namespace
