@@ -9,7 +9,7 @@
 #include <unistd.h>
 #include <cerrno>
 #include <cstring>
-#include <utility>
+#include <filesystem>
 
 #include "gimdem/coupling/Error.hpp"
 
@@ -57,7 +57,7 @@ bool answers(std::string const& path)
 
 }  // namespace
 
-IpcPath::IpcPath(std::string path) : path_(std::move(path)), lock_path_(path_ + ".lock")
+IpcPath::IpcPath(std::string const& path) : path_(std::filesystem::absolute(path).string()), lock_path_(path_ + ".lock")
 {
     take_lock();
     try

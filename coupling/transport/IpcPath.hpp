@@ -16,7 +16,7 @@ class IpcPath
 {
 public:
     /// Fault::endpoint if a live server holds the path, or if something there is not a socket.
-    explicit IpcPath(std::string path);
+    explicit IpcPath(std::string const& path);
     ~IpcPath();
     IpcPath(IpcPath const&) = delete;
     IpcPath& operator=(IpcPath const&) = delete;

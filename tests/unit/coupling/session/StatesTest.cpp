@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -286,6 +288,40 @@ TEST(States, NameTheCallTheStateAndTheFaultBefore)
     session.abort(Fault::user, "it broke");
     EXPECT_FAULT(session.require(Event::connect), Fault::user,
                  "illegal in state failed, step 0 after the fault: it broke");
+}
+
+/// The rows below a heading of docs/protocol.md, up to the next heading.
+std::vector<std::string> documented_rows(std::string const& heading)
+{
+    std::ifstream page(GIMDEM_PROTOCOL_PAGE);
+    std::vector<std::string> rows;
+    bool inside = false;
+    for (std::string line; std::getline(page, line);)
+    {
+        if (line.rfind("#", 0) == 0) inside = line == heading;
+        bool const is_row = inside && line.rfind("| ", 0) == 0 && line != "| state | event | next state |";
+        if (is_row) rows.push_back(line);
+    }
+    return rows;
+}
+
+std::vector<std::string> rows_of(Span<Rule const> rules)
+{
+    std::vector<std::string> rows;
+    for (Rule const& rule : rules)
+    {
+        std::string event = name_of(rule.event);
+        if (rule.event == Event::begin_serial_step) event += ", serial";
+        if (rule.event == Event::begin_overlapped_step) event += ", overlapped";
+        rows.push_back("| " + name_of(rule.from) + " | " + event + " | " + name_of(rule.to) + " |");
+    }
+    return rows;
+}
+
+TEST(States, AreDocumentedAsTheyAre)
+{
+    EXPECT_EQ(documented_rows("### States of the client"), rows_of(client_rules()));
+    EXPECT_EQ(documented_rows("### States of the server"), rows_of(server_rules()));
 }
 
 }  // namespace
