@@ -50,7 +50,7 @@ struct CellWalker
                 }
             }
             if (worst_face < 0) return {cell, 0, -1};
-            if (worst < best.outside) best = {cell, worst, worst_face};
+            if (worst <= best.outside) best = {cell, worst, worst_face};
             if (next < 0) return best;
             cell = next;
         }

@@ -19,7 +19,7 @@ double by_quadrature(double volume_ratio, double phi, double mu)
     double const rc = std::cbrt(volume_ratio);
     double const sp = phi, sc = phi * rc;
     double const low = -40 * std::max(sp, sc), high = mu + 40 * std::max(sp, sc);
-    int const n = 2'000'000;
+    int const n = 200'000;
     double const h = (high - low) / n;
     double sum = 0;
     for (int i = 0; i <= n; ++i)
@@ -72,10 +72,10 @@ TEST(GaussianIntegral, ReproducesTheTableAtTunedCoefficient)
 
 TEST(GaussianIntegral, IsTheIntegralOfTheMinimumInEveryBranch)
 {
-    // Quadrature's own error: h^2 at the kinks of the minimum, about 1e-9 here.
+    // Quadrature's own error: h^2 at the kinks of the minimum, below 1e-7 here.
     for (double const ratio : {0.01, 0.3, 0.999, 1.0, 1.001, 3.0, 100.0})
         for (double const mu : {0.0, 0.05, 0.5, 1.0, 2.5})
-            EXPECT_NEAR(integral(ratio, 0.45)(mu), by_quadrature(ratio, 0.45, mu), 1e-7) << ratio << ' ' << mu;
+            EXPECT_NEAR(integral(ratio, 0.45)(mu), by_quadrature(ratio, 0.45, mu), 3e-7) << ratio << ' ' << mu;
 }
 
 TEST(GaussianIntegral, WithoutCrossingTheSmallerOneIsInsideTheLarger)
