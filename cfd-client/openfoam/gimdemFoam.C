@@ -42,6 +42,27 @@ Description
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
+//- Fatal unless value is a number up to most
+static void requireConvergent
+(
+    const Time& runTime,
+    const char* name,
+    const scalar value,
+    const scalar most
+)
+{
+    if (!(value <= most))
+    {
+        FatalErrorInFunction
+            << "the fluid diverged: " << name << " is " << value << " at t = "
+            << runTime.value() << " s (at most " << most << " is reasonable);"
+            << " reduce deltaT of system/controlDict, look at 0/U and 0/p, or"
+            << " raise maxVelocity in PIMPLE of system/fvSolution"
+            << exit(FatalError);
+    }
+}
+
+
 //- The whole simulation. Throws on any fault
 static void simulate
 (
@@ -186,11 +207,13 @@ int main(int argc, char *argv[])
     if (server)
     {
         server->abort(reason);
+        server.reset();
     }
     Info<< flush;
     std::cerr << "gimdemFoam: " << reason << std::endl;
 
-    return 1;
+    // Not return: the end of args makes the exit code 0, whatever is returned
+    UPstream::exit(1);
 }
 
 

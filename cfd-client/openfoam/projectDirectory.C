@@ -17,6 +17,7 @@ Description
 
 \*---------------------------------------------------------------------------*/
 
+#include <climits>
 #include <cstring>
 #include <unistd.h>
 #include <vector>
@@ -38,7 +39,11 @@ static void setProjectDirectory(int, char* argv[], char* environment[])
     with.push_back(nullptr);
 
     // Where that fails OpenFOAM tells what it misses
-    execve("/proc/self/exe", argv, with.data());
+    static char self[PATH_MAX + 1];
+    if (readlink("/proc/self/exe", self, PATH_MAX) > 0)
+    {
+        execve(self, argv, with.data());
+    }
 }
 
 __attribute__((section(".preinit_array"), used))

@@ -91,6 +91,25 @@ Foam::tmp<Foam::vectorField> Foam::halfCells::reconstruct
 }
 
 
+Foam::tmp<Foam::volVectorField> Foam::halfCells::reconstruct
+(
+    const word& name,
+    const surfaceScalarField& flux
+) const
+{
+    auto tresult = tmp<volVectorField>::New
+    (
+        IOobject(name, mesh_.time().timeName(), mesh_),
+        mesh_,
+        dimensionedVector(flux.dimensions()/dimArea, Zero)
+    );
+    tresult.ref().primitiveFieldRef() = reconstruct(flux);
+    tresult.ref().correctBoundaryConditions();
+
+    return tresult;
+}
+
+
 Foam::tmp<Foam::tensorField> Foam::halfCells::share
 (
     const surfaceScalarField& C
