@@ -48,7 +48,7 @@ FieldChoice<Fields> choose(std::vector<std::string> const& names, Table const& t
 template <class Fields>
 std::string not_finite_text(FieldEntry<Fields> const& entry, Span<double const> values, std::size_t i)
 {
-    return "field \"" + std::string(entry.name) + "\" has " + std::to_string(values[i]) + " in cell " +
+    return "field \"" + std::string(entry.name) + "\" has " + number_text(values[i]) + " in cell " +
            std::to_string(i / entry.components);
 }
 

@@ -45,7 +45,7 @@ Problem find_count_fault(MeshView const& mesh)
 Problem find_point_fault(MeshView const& mesh)
 {
     if (auto const i = first_not_finite(mesh.points))
-        return "point " + text(*i / 3) + " is not finite (" + std::to_string(mesh.points[*i]) + ")";
+        return "point " + text(*i / 3) + " is not finite (" + number_text(mesh.points[*i]) + ")";
     return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 #include "message/Message.hpp"
 
 #include <cmath>
+#include <cstdio>
 
 namespace gimdem::coupling::message
 {
@@ -78,6 +79,13 @@ std::string printable(std::string const& text)
     return result;
 }
 
+std::string number_text(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.12g", value);
+    return text;
+}
+
 void refuse(std::string const& problem)
 {
     throw CouplingError(Fault::protocol, problem);
@@ -94,8 +102,8 @@ void check_name(std::string const& name, char const* whose)
 void check_number(double value, double least, char const* whose)
 {
     if (!std::isfinite(value) || value < least)
-        refuse(std::string(whose) + " is " + std::to_string(value) + " (it must be finite and at least " +
-               std::to_string(least) + ")");
+        refuse(std::string(whose) + " is " + number_text(value) + " (it must be finite and at least " +
+               number_text(least) + ")");
 }
 
 }  // namespace gimdem::coupling::message

@@ -35,6 +35,9 @@ inline constexpr std::size_t max_text_bytes = 8192;  ///< of a reason
 inline constexpr std::size_t max_name_bytes = 256;   ///< of a name
 inline constexpr double min_timeout = 0.1;           ///< a peer needs this much to show that it lives [s]
 
+/// A number as people write it: "0.5", "1e-300", "nan".
+std::string number_text(double value);
+
 /// What a peer sent cannot be used: Fault::protocol.
 [[noreturn]] void refuse(std::string const& problem);
 

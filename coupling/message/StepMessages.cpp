@@ -14,8 +14,8 @@ int constexpr max_monitors = 256;
 void check_sent_number(double value, double least, char const* whose)
 {
     if (!std::isfinite(value) || value < least)
-        throw CouplingError(Fault::user, std::string(whose) + " is " + std::to_string(value) +
-                                             " (it must be finite and at least " + std::to_string(least) +
+        throw CouplingError(Fault::user, std::string(whose) + " is " + number_text(value) +
+                                             " (it must be finite and at least " + number_text(least) +
                                              "); check the call");
 }
 

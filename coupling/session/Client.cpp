@@ -85,11 +85,10 @@ void Client::Impl::connect(FluidProperties const& fluid)
     session.send(message::pack(message::Hello{options.name, fluid, options.wants, options.schedule, options.timeout}));
 
     if (!session.wait_for_contact(Clock::now() + ticks(options.connect_time)))
-        session.fail(Fault::endpoint,
-                     "no server has answered at " + options.endpoint + " within " +
-                         std::to_string(options.connect_time) +
-                         " s (none runs there, or it is not a gimdem server); start gimdem-server with "
-                         "the same endpoint");
+        session.fail(Fault::endpoint, "no server has answered at " + options.endpoint + " within " +
+                                          session::seconds_text(options.connect_time) +
+                                          " (none runs there, or it is not a gimdem server); start gimdem-server with "
+                                          "the same endpoint");
     session::Letter const letter = receive("Welcome");
     welcome = session.read([&] { return message::unpack_welcome(letter.message); });
     session.set_peer_name(welcome.server);

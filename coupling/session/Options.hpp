@@ -22,8 +22,9 @@ inline void require_name(std::string const& name, char const* option)
 inline void require_seconds(double seconds, double least, char const* option)
 {
     if (std::isnan(seconds) || seconds < least)
-        throw CouplingError(Fault::user, std::string(option) + " is " + std::to_string(seconds) + " s (at least " +
-                                             std::to_string(least) + " s); choose a longer time");
+        throw CouplingError(Fault::user, std::string(option) + " is " + message::number_text(seconds) +
+                                             " s (at least " + message::number_text(least) +
+                                             " s); choose a longer time");
 }
 
 }  // namespace gimdem::coupling::session

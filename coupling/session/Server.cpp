@@ -86,8 +86,12 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
     session.require(Event::wait_for_client);
     terms.fluid = message::choose_fluid_fields(offered.needs, Fault::user);
 
-    session::Letter const letter =
-        session.receive("Hello", Clock::now() + ticks(options.connect_time), options.connect_time);
+    if (!session.wait_for_contact(Clock::now() + ticks(options.connect_time)))
+        session.fail(Fault::timeout, "no client has appeared at " + session.endpoint() + " within " +
+                                         session::seconds_text(options.connect_time) +
+                                         " (the fluid solver did not start, or uses another endpoint); start it with "
+                                         "the same endpoint, or allow more time");
+    session::Letter const letter = receive("Hello");
     message::Hello const hello = session.read([&] { return message::unpack_hello(letter.message); });
     session.set_peer_name(hello.name);
     session.choose_session_number();

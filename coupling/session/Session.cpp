@@ -20,13 +20,6 @@ using message::Message;
 /// Last words get so long to leave.
 auto constexpr linger = 1s;
 
-std::string seconds_text(double seconds)
-{
-    char text[32];
-    std::snprintf(text, sizeof(text), "%.3g s", seconds);
-    return text;
-}
-
 std::string named(Role role, std::string const& name)
 {
     std::string const who = role == Role::client ? "client" : "server";
@@ -39,6 +32,13 @@ Role other(Role role)
 }
 
 }  // namespace
+
+std::string seconds_text(double seconds)
+{
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.3g s", seconds);
+    return text;
+}
 
 Session::Session(Role role, std::string name, double timeout)
     : role_(role),

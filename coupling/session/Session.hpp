@@ -19,6 +19,9 @@ namespace gimdem::coupling::session
 using transport::Role;
 using transport::Time;
 
+/// "0.5 s".
+std::string seconds_text(double seconds);
+
 /// One session, used by the program's thread; the channel's I/O thread enters through the on_...() functions only.
 class Session
 {
@@ -50,7 +53,7 @@ public:
 
     /// The next message, checked against the state table. awaited: what we wait for, in words.
     Letter receive(std::string const& awaited, Time deadline, double patience);
-    /// Client: false if no server appears until then.
+    /// False if the peer has not appeared by then.
     bool wait_for_contact(Time deadline) { return inbox_.wait_for_contact(deadline); }
     /// Throws what receive() would throw at once: a fault that is known before we send more.
     void look_for_trouble(std::string const& awaited);

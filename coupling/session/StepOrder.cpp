@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "message/Message.hpp"
 
 namespace gimdem::coupling::session
 {
@@ -13,13 +14,6 @@ namespace
 /// Relative to the time itself: room for a client that adds up its steps, none for one that skips a part of one.
 double constexpr time_tolerance = 1e-9;
 
-std::string text(double number)
-{
-    char digits[32];
-    std::snprintf(digits, sizeof(digits), "%.12g", number);
-    return digits;
-}
-
 }  // namespace
 
 std::optional<std::string> StepOrder::find_fault(Step const& next) const
@@ -27,14 +21,17 @@ std::optional<std::string> StepOrder::find_fault(Step const& next) const
     std::string const who = "step " + std::to_string(next.number);
     if (next.number != last_.number + 1)
         return who + " follows step " + std::to_string(last_.number) + " (steps are numbered 1, 2, 3, ...)";
-    if (!std::isfinite(next.time)) return who + " begins at " + text(next.time) + " s (it must be finite)";
-    if (!std::isfinite(next.dt) || next.dt <= 0) return who + " has dt = " + text(next.dt) + " s (it must be positive)";
+    if (!std::isfinite(next.time))
+        return who + " begins at " + message::number_text(next.time) + " s (it must be finite)";
+    if (!std::isfinite(next.dt) || next.dt <= 0)
+        return who + " has dt = " + message::number_text(next.dt) + " s (it must be positive)";
     if (last_.number == 0) return std::nullopt;
 
     double const expected = last_.time + last_.dt;
     double const tolerance = time_tolerance * std::max(std::abs(expected), last_.dt);
     if (std::abs(next.time - expected) <= tolerance) return std::nullopt;
-    return who + " begins at " + text(next.time) + " s (the step before it ended at " + text(expected) + " s)";
+    return who + " begins at " + message::number_text(next.time) + " s (the step before it ended at " +
+           message::number_text(expected) + " s)";
 }
 
 }  // namespace gimdem::coupling::session
