@@ -15,49 +15,76 @@ GIMDEM_HD inline double tuned_coefficient(double log_volume_ratio)  ///< ln(V_c 
     return 0.579 * std::exp(-0.132 * log_volume_ratio);
 }
 
-/// Shared integral I = int min(G_p, G_c) dx divided by V_p, for the Gaussians of (G.5) with sigma = phi r.
+/// The shared integral of two Gaussians as a sum of four tails, theory.md (G.6):
 ///
-/// With s = sigma_c / sigma_p = (V_c / V_p)^(1/3), x in units of sigma_p and m = mu / sigma_p, the Gaussians cross
-/// where (s^2 - 1) x^2 + 2 m x - m^2 - 4 s^2 ln s = 0, and between the roots the wider one is the lower. The right-hand
-/// root is written as C / (B + sqrt(D)), the left-hand one as -(B + sqrt(D)) / A: neither cancels, and for s -> 1 the
-/// right-hand root tends to m / 2, the single crossing of equal Gaussians, while the other one goes to infinity.
+///   I / V_narrow = Q(z0) + Q(z1) + s^3 (Q(z2) - Q(z3)),   Q(z) = erfc(z / sqrt 2) / 2
+///
+/// The tails are apart from their sum so that many pairs can have their erfc taken at once.
+struct TailArguments
+{
+    double x[4];          ///< z_k / sqrt 2
+    bool crosses;         ///< false: the narrow Gaussian lies below everywhere
+    double cube;          ///< s^3, ratio of the larger to the smaller volume
+    double log_cube;      ///< its logarithm
+    double in_particles;  ///< V_narrow / V_p
+
+    /// I / V_p from tails[k] = erfc(x[k]).
+    GIMDEM_HD double sum(double t0, double t1, double t2, double t3) const
+    {
+        return in_particles * (crosses ? 0.5 * (t0 + t1 + cube * (t2 - t3)) : 1.0);
+    }
+};
+
+/// A particle and a cell, the numbers that (G.4) to (G.7) need of them.
+struct ParticleAndCell
+{
+    double particle_radius;  ///< r_p [m]
+    double radius_ratio;     ///< r_c / r_p = (V_c / V_p)^(1/3)
+    double log_radius_ratio;
+    double coefficient;  ///< phi [1]
+
+    /// Arguments of the tails at the centre distance mu >= 0 [m].
+    ///
+    /// Of two Gaussians the wider is also the larger in volume; s >= 1 is the ratio of their deviations and m the
+    /// distance in deviations of the narrow one. The roots do not cancel, and for s = 1 the left one is at -infinity.
+    GIMDEM_HD TailArguments operator()(double mu) const
+    {
+        bool const cell_is_narrow = log_radius_ratio < 0;
+        double const s = cell_is_narrow ? 1 / radius_ratio : radius_ratio;
+        double const log_s = cell_is_narrow ? -log_radius_ratio : log_radius_ratio;
+        double const cube = s * s * s;
+        double const narrow_radius = cell_is_narrow ? particle_radius * radius_ratio : particle_radius;
+        double const m = mu / (coefficient * narrow_radius);
+
+        double const a = s * s - 1;
+        double const c = m * m - 4 * s * s * log_s;
+        double const discriminant = m * m + a * c;
+        bool const crosses = discriminant > 0;
+        double const sum = m + std::sqrt(crosses ? discriminant : 1.0);
+        double const right = c / sum;
+        double const left = -sum / a;
+        double const h = 0.70710678118654752440;
+        return {{h * right, -h * left, h * (m - right) / s, h * (m - left) / s},
+                crosses,
+                cube,
+                3 * log_s,
+                cell_is_narrow ? 1 / cube : 1.0};
+    }
+};
+
+/// I / V_p of one pair: in [0, min(1, V_c / V_p)].
 struct GaussianIntegral
 {
     double radius;            ///< r_p [m]
     double log_volume_ratio;  ///< ln(V_c / V_p)
     double coefficient;       ///< phi [1]
 
-    /// I / V_p for centre distance mu >= 0 [m]: in [0, max(1, V_c / V_p)].
-    GIMDEM_HD double operator()(double distance) const
+    GIMDEM_HD double operator()(double mu) const
     {
-        double const log_s = log_volume_ratio / 3;
-        // Of two Gaussians the wider one is also the larger in volume: swap so that s >= 1, and undo at the end.
-        bool const swapped = log_s < 0;
-        double const s = std::exp(swapped ? -log_s : log_s);
-        double const narrow_sigma = coefficient * radius * (swapped ? 1 / s : 1.0);
-        double const m = distance / narrow_sigma;
-        double const shared = shared_with_wider(s, swapped ? -log_s : log_s, m);
-        return swapped ? shared * std::exp(log_volume_ratio) : shared;
+        double const log_ratio = log_volume_ratio / 3;
+        TailArguments const tails = ParticleAndCell{radius, std::exp(log_ratio), log_ratio, coefficient}(mu);
+        return tails.sum(std::erfc(tails.x[0]), std::erfc(tails.x[1]), std::erfc(tails.x[2]), std::erfc(tails.x[3]));
     }
-
-private:
-    /// int min(g, s^3 g_wide) dx with g the standard normal density and g_wide that of N(m, s), s >= 1.
-    GIMDEM_HD static double shared_with_wider(double s, double log_s, double m)
-    {
-        double const a = s * s - 1;
-        double const c = m * m - 4 * s * s * log_s;
-        double const discriminant = m * m + a * c;
-        if (!(discriminant > 0)) return 1;  // the narrow one lies below everywhere, (G.6)
-        double const root = std::sqrt(discriminant);
-        double const right = c / (m + root);
-        double const left = -(m + root) / a;  // -infinity for s = 1
-        double const narrow_outside = upper_half(right) + upper_half(-left);
-        double const wide_inside = upper_half((m - right) / s) - upper_half((m - left) / s);
-        return narrow_outside + s * s * s * wide_inside;
-    }
-
-    /// int_z^inf of the standard normal density.
-    GIMDEM_HD static double upper_half(double z) { return 0.5 * std::erfc(z * 0.70710678118654752440); }
 };
 
 }  // namespace gimdem

@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/Error.hpp"
 #include "exec/ForEach.hpp"
-#include "exec/Reduce.hpp"
+#include "exec/VectorMath.hpp"
 #include "mapping/GaussianIntegral.hpp"
 
 namespace gimdem
@@ -36,13 +37,13 @@ struct LocateKernel
     }
 };
 
-/// Weights (G.8) of one particle on the candidates of its cell.
+/// Weights (G.8) of one particle on the candidates of its cell, a few candidates at a time.
 struct WeightKernel
 {
     Quad const* position;
     std::int32_t const* cell_of;
     Quad const* cell;
-    double const* log_volume;
+    CellSize const* cell_sizes;
     std::int32_t const* layer_offsets;
     std::int32_t const* layer_cells;
     std::int32_t const* weight_offsets;
@@ -50,29 +51,62 @@ struct WeightKernel
 
     GIMDEM_HD void operator()(std::int64_t p) const
     {
-        Quad const x = position[p];
         std::int32_t const begin = layer_offsets[cell_of[p]];
-        std::int32_t const count = layer_offsets[cell_of[p] + 1] - begin;
+        int const count = layer_offsets[cell_of[p] + 1] - begin;
         double* const w = weights + weight_offsets[p];
-        double const log_particle = std::log(sphere_volume(x.w));
+        for (int k = 0; k < count; k += batch)
+            integrate(position[p], layer_cells + begin + k, count - k < batch ? count - k : batch, w + k);
 
         double total = 0;
-        double ratio = 0, phi = 0;
-        for (std::int32_t k = 0; k < count; ++k)
-        {
-            std::int32_t const c = layer_cells[begin + k];
-            if (k == 0 || ratio != log_volume[c] - log_particle)
-            {
-                ratio = log_volume[c] - log_particle;
-                phi = tuned_coefficient(ratio);
-            }
-            w[k] = GaussianIntegral{x.w, ratio, phi}((x.xyz() - cell[c].xyz()).norm());
+        for (int k = 0; k < count; ++k)
             total += w[k];
-        }
         // Cells so far away that every integral underflows: the own cell takes all.
         if (!(total > 0)) w[0] = total = 1;
-        for (std::int32_t k = 0; k < count; ++k)
+        for (int k = 0; k < count; ++k)
             w[k] /= total;
+    }
+
+private:
+    static constexpr int batch = 4 * exec::vector_width;
+
+    /// Shared integrals of one particle with up to `batch` cells.
+    GIMDEM_HD void integrate(Quad const& x, std::int32_t const* cells, int count, double* shared) const
+    {
+        double tails[batch][4];
+        TailArguments arguments[batch];
+        double const log_radius = std::log(x.w);
+        double const tuning = 0.579 * std::exp(3 * 0.132 * log_radius);
+        for (int k = 0; k < count; ++k)
+        {
+            CellSize const& size = cell_sizes[cells[k]];
+            ParticleAndCell const pair{x.w, size.radius / x.w, size.log_radius - log_radius, tuning * size.tuning};
+            arguments[k] = pair((x.xyz() - cell[cells[k]].xyz()).norm());
+        }
+        take_tails(arguments, count, tails);
+        for (int k = 0; k < count; ++k)
+            shared[k] = arguments[k].sum(tails[k][0], tails[k][1], tails[k][2], tails[k][3]);
+    }
+
+    /// erfc of all arguments, packed so that no lane is idle; a tail below 1e-18 of the particle is nothing.
+    GIMDEM_HD static void take_tails(TailArguments const* arguments, int count, double tails[][4])
+    {
+        double packed[4 * batch];
+        std::int16_t place[4 * batch];
+        int active = 0;
+        for (int k = 0; k < count; ++k)
+            for (int t = 0; t < 4; ++t)
+            {
+                // erfc(x) < exp(-x^2); the last two tails count s^3 times.
+                double const x = arguments[k].x[t];
+                double const limit2 = 41 + (t < 2 ? 0.0 : arguments[k].log_cube);
+                tails[k][t] = 0;
+                if (x > 0 && x * x > limit2) continue;
+                packed[active] = x;
+                place[active++] = static_cast<std::int16_t>(4 * k + t);
+            }
+        exec::erfc_many(packed, active);
+        for (int i = 0; i < active; ++i)
+            tails[place[i] / 4][place[i] % 4] = packed[i];
     }
 };
 
@@ -118,9 +152,12 @@ struct SumKernel
 Mapper::Mapper(exec::Execution execution, PolyMesh const& mesh)
     : execution_(execution), mesh_(mesh), layers_(mesh), start_cells_(mesh)
 {
-    log_volume_.resize(mesh.cell_count());
+    cell_sizes_.resize(mesh.cell_count());
     for (std::int32_t c = 0; c < mesh.cell_count(); ++c)
-        log_volume_[c] = std::log(mesh.volume(c));
+    {
+        double const radius = std::cbrt(3 / (4 * std::numbers::pi) * mesh.volume(c));
+        cell_sizes_[c] = {radius, std::log(radius), std::pow(radius, -3 * 0.132)};
+    }
 
     reverse_slot_.resize(layers_.cells.size());
     for (std::int32_t c = 0; c < mesh.cell_count(); ++c)
@@ -172,7 +209,7 @@ void Mapper::compute_weights(ParticleState const& particles)
     weights_.resize(exec::exclusive_scan(weight_offsets_.host()));
     exec::for_each(execution_, n,
                    WeightKernel{particles.position.view().data, cell_of_.view().data, mesh_.view().cell,
-                                log_volume_.view().data, layers_.offsets.view().data, layers_.cells.view().data,
+                                cell_sizes_.view().data, layers_.offsets.view().data, layers_.cells.view().data,
                                 weight_offsets_.view().data, weights_.view().data});
 }
 

@@ -17,6 +17,14 @@
 namespace gimdem
 {
 
+/// What the Gaussian Integral Method needs of a cell's volume, computed once.
+struct CellSize
+{
+    double radius;      ///< of the sphere of its volume [m]
+    double log_radius;  ///< its logarithm
+    double tuning;      ///< radius^(-3 * 0.132): the cell's factor of Eq. 27
+};
+
 /// Cell sums of one mapping.
 struct CellSums
 {
@@ -53,7 +61,7 @@ private:
     PolyMesh const& mesh_;
     CellLayers layers_;
     StartCells start_cells_;
-    exec::Buffer<double> log_volume_;  ///< ln V_c per cell
+    exec::Buffer<CellSize> cell_sizes_;
     exec::Buffer<std::int32_t>
         reverse_slot_;  ///< for entry k of layers: place of the row's cell in the row of cells[k]
     exec::Buffer<std::int32_t> cell_of_;
