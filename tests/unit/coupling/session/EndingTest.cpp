@@ -19,7 +19,8 @@ namespace
 using namespace coupling;
 
 double constexpr impatient = 0.5;  ///< time-out of the tests that wait for one [s]
-double constexpr at_once = 5;      ///< far below `patient`, far above what a busy machine needs [s]
+double constexpr at_once =
+    2;  ///< below a fifth of `patient`, where a heartbeat would tell; above what a busy machine needs [s]
 
 class Stopwatch
 {

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// A client in a process of its own, to be killed and stopped.
+///
+/// Usage: scripted_client <endpoint> <time-out [s]> <steps>
+/// Exit codes: 0 orderly end, 1 a fault, whose text goes to standard error, 2 wrong usage.
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+#include "BoxMesh.hpp"
+#include "UniformFluid.hpp"
+#include "gimdem/coupling/Client.hpp"
+
+namespace
+{
+
+void run(std::string const& endpoint, double timeout, int steps)
+{
+    using namespace gimdem;
+    double constexpr dt = 1e-4;  // [s]
+    coupling::ClientOptions options;
+    options.endpoint = endpoint;
+    options.name = "scripted client";
+    options.timeout = timeout;
+    coupling::Client client(options);
+    client.connect(test::air);
+    coupling::Mesh const mesh = test::BoxMesh::make({4, 4, 8}, {0.06, 0.06, 0.12});
+    client.send_mesh(test::view_of(mesh));
+
+    test::UniformFluid const fluid(static_cast<std::size_t>(mesh.cell_count), {0, 0, 1});
+    for (int n = 1; n <= steps; ++n)
+    {
+        client.begin_step({n, dt * (n - 1), dt}, fluid.view());
+        client.end_step();
+        std::cout << "step " << n << std::endl;
+    }
+    client.finish("all steps done");
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    if (argc != 4) return 2;
+    try
+    {
+        run(argv[1], std::atof(argv[2]), std::atoi(argv[3]));
+        return 0;
+    }
+    catch (std::exception const& error)
+    {
+        std::cerr << "scripted client: " << error.what() << std::endl;
+        return 1;
+    }
+}
