@@ -90,7 +90,9 @@ std::string solution(FluidCase const& fluid)
 
 std::string schemes(FluidCase const& fluid)
 {
-    return "ddtSchemes { default Euler; }\ngradSchemes { default Gauss linear; }\n"
+    return "ddtSchemes { default Euler; }\ngradSchemes { default " +
+           fluid.gradient +
+           "; }\n"
            "divSchemes { default none; div(alphaPhi,U) Gauss " +
            fluid.convection +
            "; div((alphaNu*dev2(T(grad(U))))) Gauss linear; }\n"
@@ -121,7 +123,7 @@ FluidProcess::FluidProcess(FluidCase const& fluid)
 
     std::ostringstream control;
     control << "application gimdemFoam; startFrom startTime; startTime 0; stopAt endTime; endTime 1e9; deltaT "
-            << fluid.time_step << "; writeControl timeStep; writeInterval 1000000;\n";
+            << fluid.time_step << "; writeControl timeStep; writeInterval 1000000; writePrecision 12;\n";
     std::ostringstream air;
     air << "rho " << fluid.density << "; mu " << fluid.viscosity << ";\n";
 
@@ -164,7 +166,7 @@ void FluidProcess::run(std::string const& command) const
 {
     ::setenv("WM_PROJECT_DIR", GIMDEM_OPENFOAM_PROJECT_DIR, 0);
     std::string const log = (folder_ / "log.setup").string();
-    if (std::system(("cd " + folder_.string() + " && " + command + " > " + log + " 2>&1").c_str()) != 0)
+    if (std::system(("cd " + folder_.string() + " && (" + command + ") > " + log + " 2>&1").c_str()) != 0)
     {
         std::ifstream in(log);
         throw std::runtime_error(command + " failed:\n" + std::string(std::istreambuf_iterator<char>(in), {}));

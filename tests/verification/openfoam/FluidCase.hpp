@@ -34,6 +34,7 @@ struct FluidCase
     double end_time = 0.01;               ///< [s]
     bool momentum_predictor = true;
     std::string convection = "limitedLinearV 1";
+    std::string gradient = "Gauss linear";
     double tolerance = 1e-10;             ///< of the pressure, relative
     std::function<Vector(Vector)> velocity;  ///< at t = 0, of a cell's centre; empty: superficial
 };
