@@ -35,7 +35,11 @@ def build(targets: Sequence[str] = ()) -> None:
 def locked(path: Path) -> Iterator[None]:
     """Two builds in one folder take turns."""
     with path.open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            say("build", f"waiting for another build in {shown(path.parent)}")
+            fcntl.flock(lock, fcntl.LOCK_EX)
         yield
 
 
