@@ -74,6 +74,7 @@ void Channel::run() noexcept
     }
     catch (std::exception const& error)
     {
+        lost_ = true;
         end({Ending::Kind::lost, 0, error.what()});
     }
 }
@@ -107,7 +108,7 @@ void Channel::send_queued()
     }
     // After a break ZeroMQ would keep the frames for whoever opens the endpoint next.
     for (Frames& frames : ready)
-        if (!lost_ && !socket_.send(peer_, frames)) end({});
+        if (!lost_ && !socket_.send(peer_, frames)) lose();
 }
 
 void Channel::receive_all()
@@ -139,7 +140,7 @@ void Channel::handle_broken_connection()
     if (socket_.role() == Role::server)
         probe_until_ = Clock::now() + probe_time;  // whose it was, the next heartbeats tell
     else
-        end({});
+        lose();
 }
 
 void Channel::beat(Time now)
@@ -147,12 +148,18 @@ void Channel::beat(Time now)
     liveness_.beaten(now);
     if (ended_ || !liveness_.has_contact()) return;
     Frames frames = hooks_.heartbeat();
-    if (!socket_.send(peer_, frames)) end({});
+    if (!socket_.send(peer_, frames)) lose();
+}
+
+void Channel::lose()
+{
+    lost_ = true;
+    receive_all();  // the last words of the peer, which may explain it
+    end({});
 }
 
 void Channel::end(Ending ending)
 {
-    lost_ = lost_ || ending.kind == Ending::Kind::lost;
     if (ended_) return;
     ended_ = true;
     hooks_.ended(std::move(ending));

@@ -73,6 +73,7 @@ private:
     void receive_from(Parcel parcel, Time now);
     void handle_broken_connection();
     void beat(Time now);
+    void lose();
     void end(Ending ending);
 
     Socket socket_;
