@@ -87,13 +87,14 @@ def force_balance(values: dict[str, float]) -> list[Figure]:
         weight = values["bed_weight_per_area"]
         acceleration = values["mean_momentum_rate"] / area
         walls = -values["mean_wall_force"] / area  # that the particles exert on the walls
+        gas = values["gas_weight_per_area"]  # the pressure includes its static part
         drop = values["mean_pressure_drop"]
     except KeyError:
         return []
-    needed = weight + acceleration + walls
+    needed = weight + acceleration + walls + gas
     return [
         Figure("balance_weight", weight, "Pa"), Figure("balance_acceleration", acceleration, "Pa"),
-        Figure("balance_walls", walls, "Pa"), Figure("balance_needed", needed, "Pa"),
+        Figure("balance_walls", walls, "Pa"), Figure("balance_gas", gas, "Pa"), Figure("balance_needed", needed, "Pa"),
         Figure("pressure_drop_to_needed", drop / needed, "1"),
     ]
 

@@ -146,6 +146,7 @@ class Supervisor:
     def _hurry(child: Child, alone_for: float, patience: float) -> None:
         """A process whose peer is gone ends by itself; if not in time, it is made to."""
         if alone_for > patience + LAST_WORDS:
+            child.forced = True
             child.tell(signal.SIGKILL)
         elif alone_for > patience and not child.forced:
             child.forced = True

@@ -21,19 +21,40 @@ class VtkFileError(Exception):
 
 def read_particles(file: Path) -> dict[str, np.ndarray]:
     """The arrays of a .vtp file by name, shape=(n,) or (n, components); the points are called "position"."""
+    root, read = open_file(file)
+    arrays = {element.get("Name", ""): read(element) for element in root.findall(".//PointData/DataArray")}
+    arrays["position"] = read(only(root, ".//Points/DataArray", file))
+    return arrays
+
+
+def read_cells(file: Path) -> dict[str, np.ndarray]:
+    """The cell fields of a .vtu file by name; the means of each cell's points are called "centre"."""
+    root, read = open_file(file)
+    arrays = {element.get("Name", ""): read(element) for element in root.findall(".//CellData/DataArray")}
+    points = read(only(root, ".//Points/DataArray", file)).astype(float)
+    corners = read(only(root, ".//Cells/DataArray[@Name='connectivity']", file))
+    ends = read(only(root, ".//Cells/DataArray[@Name='offsets']", file))
+    starts = np.concatenate(([0], ends[:-1]))
+    arrays["centre"] = np.add.reduceat(points[corners], starts) / (ends - starts)[:, None]
+    return arrays
+
+
+def open_file(file: Path) -> tuple[ElementTree.Element, BlockReader]:
+    """The XML of a file and what reads its arrays."""
     content = file.read_bytes()
     start = content.find(APPENDED)
     if start < 0:
         raise VtkFileError(f"{file} has no appended data")
     blob = content[content.index(b"_", content.index(b">", start)) + 1 :]
     root = ElementTree.fromstring(content[:start] + b"</VTKFile>")
-    read = BlockReader(root, blob)
-    arrays = {element.get("Name", ""): read(element) for element in root.findall(".//PointData/DataArray")}
-    points = root.find(".//Points/DataArray")
-    if points is None:
-        raise VtkFileError(f"{file} has no points")
-    arrays["position"] = read(points)
-    return arrays
+    return root, BlockReader(root, blob)
+
+
+def only(root: ElementTree.Element, path: str, file: Path) -> ElementTree.Element:
+    found = root.find(path)
+    if found is None:
+        raise VtkFileError(f"{file} has no {path.removeprefix('.//')}")
+    return found
 
 
 def read_series(pvd: Path, group: str) -> list[tuple[float, Path]]:

@@ -20,7 +20,7 @@ class RealCaseTest(FrontDoorTest):
         self.case = self.folder / "case"
         shutil.copytree(WACHEM, self.case, ignore=shutil.ignore_patterns("runs", "settled"))
         self.case_file = self.case / "case.toml"
-        self.edit(r"^mass = .*$", "count = 300")
+        self.edit(r"^(mass|count) = .*$", "count = 300")
         self.edit(r"^duration = .*$", "duration = 0.0")
         self.edit(r"^timeout = .*$", "timeout = 3.0")
         dictionary = self.case / "constant" / "couplingProperties"

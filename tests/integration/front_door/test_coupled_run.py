@@ -110,7 +110,7 @@ class Faults(RealCaseTest):
         start = time.monotonic()
         code, _, err = self.gimdem("run", self.case)
         self.assertEqual(code, 1, err)
-        self.assert_one_error(err, "gimdemFoam", "fvSolution")
+        self.assert_one_error(err, "gimdemFoam ended with code 1", "fvSolution")
         self.assertLess(time.monotonic() - start, 15)
 
     def test_particles_outside_the_mesh(self) -> None:
