@@ -105,7 +105,7 @@ public:
                  largest_radius(particles) + settings.dem.skin * smallest_radius(particles)),
           system_(settings, execution_, materials, walls_, std::move(particles)),
           folder_(folder),
-          log_(settings, folder, mesh_, system_, schedule_),
+          log_(settings, folder, mesh_, system_, client, schedule_),
           engine_(settings, execution_, mesh_, walls_, client.fluid, system_)
     {
     }

@@ -56,11 +56,12 @@ coupling::Patch const* named_patch(PolyMesh const& mesh, std::string const& name
 }  // namespace
 
 RunLog::RunLog(Case const& settings, std::filesystem::path folder, PolyMesh const& mesh, DemSystem const& system,
-               coupling::Schedule schedule)
+               coupling::ClientInfo const& client, coupling::Schedule schedule)
     : settings_(settings),
       folder_(std::move(folder)),
       mesh_(mesh),
       system_(system),
+      fluid_(client.fluid),
       schedule_(schedule),
       up_(upward(settings)),
       inlet_(named_patch(mesh, settings.output.inlet, "inlet")),
@@ -219,6 +220,22 @@ double RunLog::pressure_drop(coupling::FluidFields const& fluid) const
     return patch_pressure(mesh_, *inlet_, fluid) - patch_pressure(mesh_, *outlet_, fluid);
 }
 
+double RunLog::gas_weight() const
+{
+    double volume = 0;
+    for (std::int32_t c = 0; c < mesh_.cell_count(); ++c) volume += mesh_.volume(c);
+    for (std::int64_t p = 0; p < system_.particles().count(); ++p) volume -= system_.particles().volume(p);
+    Triple const& g = settings_.dem.gravity;
+    return fluid_.density * volume * Vec3(g[0], g[1], g[2]).norm();
+}
+
+double RunLog::mean_diameter() const
+{
+    double sum = 0;
+    for (Quad const& x : system_.particles().position.host()) sum += 2 * x.w;
+    return system_.particles().count() > 0 ? sum / static_cast<double>(system_.particles().count()) : 0;
+}
+
 void RunLog::finish(double bytes)
 {
     progress_.finish();
@@ -229,6 +246,9 @@ void RunLog::finish(double bytes)
     summary_.add("dem_steps", static_cast<double>(dem_steps_), "1");
     summary_.add("particles", static_cast<double>(system_.particles().count()), "1");
     summary_.add("particles_lost", 0, "1");
+    summary_.add("mean_particle_diameter", mean_diameter(), "m");
+    summary_.add("fluid_density", fluid_.density, "kg/m^3");
+    summary_.add("fluid_viscosity", fluid_.viscosity, "Pa s");
     summary_.add("momentum_imbalance", momentum_imbalance_, "1");
     summary_.add("volume_imbalance", volume_imbalance_, "1");
     summary_.add("void_fraction_min", void_fraction_min_, "1");
@@ -241,6 +261,7 @@ void RunLog::finish(double bytes)
         Triple const& g = settings_.dem.gravity;
         summary_.add("bed_weight_per_area", total_mass(system_.particles()) * Vec3(g[0], g[1], g[2]).norm() / area,
                      "Pa");
+        summary_.add("gas_weight_per_area", gas_weight() / area, "Pa");
         summary_.add("inlet_area", area, "m^2");
     }
     if (simulated > 0)

@@ -25,7 +25,7 @@ class RunLog
 {
 public:
     RunLog(Case const& settings, std::filesystem::path folder, PolyMesh const& mesh, DemSystem const& system,
-           coupling::Schedule schedule);
+           coupling::ClientInfo const& client, coupling::Schedule schedule);
 
     /// Before a step: particles and fluid are both at step.time. Writes what is due. Returns the seconds it took.
     double sample(coupling::FluidState const& fluid, CoupledEngine const& engine);
@@ -54,11 +54,14 @@ private:
     void write_row(coupling::FluidState const& fluid, CoupledEngine const& engine);
     void write_frame(coupling::FluidState const& fluid, CoupledEngine const& engine);
     double pressure_drop(coupling::FluidFields const& fluid) const;
+    double mean_diameter() const;
+    double gas_weight() const;  ///< of the fluid in the whole mesh [N]
 
     Case const& settings_;
     std::filesystem::path folder_;
     PolyMesh const& mesh_;
     DemSystem const& system_;
+    coupling::FluidProperties fluid_;
     coupling::Schedule schedule_;
     Vec3 up_;
     std::vector<PlaneSection> planes_;

@@ -49,7 +49,7 @@ struct WeightKernel
     std::int32_t const* weight_offsets;
     double* weights;
 
-    GIMDEM_HD void operator()(std::int64_t p) const
+    void operator()(std::int64_t p) const
     {
         std::int32_t const begin = layer_offsets[cell_of[p]];
         int const count = layer_offsets[cell_of[p] + 1] - begin;
@@ -67,46 +67,53 @@ struct WeightKernel
     }
 
 private:
-    static constexpr int batch = 4 * exec::vector_width;
+    static constexpr int batch = exec::vector_width;
 
-    /// Shared integrals of one particle with up to `batch` cells.
-    GIMDEM_HD void integrate(Quad const& x, std::int32_t const* cells, int count, double* shared) const
+    /// Shared integrals of one particle with up to `batch` cells; the lanes past `count` repeat the first one.
+    void integrate(Quad const& x, std::int32_t const* cells, int count, double* shared) const
     {
-        double tails[batch][4];
-        TailArguments arguments[batch];
         double const log_radius = std::log(x.w);
         double const tuning = 0.579 * std::exp(3 * 0.132 * log_radius);
-        for (int k = 0; k < count; ++k)
+        exec::Lanes mu2, radius, log_cell, factor;
+        for (int k = 0; k < batch; ++k)
         {
-            CellSize const& size = cell_sizes[cells[k]];
-            ParticleAndCell const pair{x.w, size.radius / x.w, size.log_radius - log_radius, tuning * size.tuning};
-            arguments[k] = pair((x.xyz() - cell[cells[k]].xyz()).norm());
+            std::int32_t const c = cells[k < count ? k : 0];
+            mu2[k] = (x.xyz() - cell[c].xyz()).squaredNorm();
+            radius[k] = cell_sizes[c].radius;
+            log_cell[k] = cell_sizes[c].log_radius;
+            factor[k] = cell_sizes[c].tuning;
         }
+        ParticleAndCell<exec::Lanes> const pairs{x.w, radius / x.w, log_cell - log_radius, tuning * factor};
+        TailArguments<exec::Lanes> const arguments = pairs(mu2.sqrt());
+        exec::Lanes tails[4];
         take_tails(arguments, count, tails);
+        exec::Lanes const sum = arguments.sum(tails[0], tails[1], tails[2], tails[3]);
         for (int k = 0; k < count; ++k)
-            shared[k] = arguments[k].sum(tails[k][0], tails[k][1], tails[k][2], tails[k][3]);
+            shared[k] = sum[k];
     }
 
     /// erfc of all arguments, packed so that no lane is idle; a tail below 1e-18 of the particle is nothing.
-    GIMDEM_HD static void take_tails(TailArguments const* arguments, int count, double tails[][4])
+    static void take_tails(TailArguments<exec::Lanes> const& arguments, int count, exec::Lanes* tails)
     {
         double packed[4 * batch];
         std::int16_t place[4 * batch];
         int active = 0;
-        for (int k = 0; k < count; ++k)
-            for (int t = 0; t < 4; ++t)
+        for (int t = 0; t < 4; ++t)
+        {
+            tails[t].setZero();
+            for (int k = 0; k < count; ++k)
             {
                 // erfc(x) < exp(-x^2); the last two tails count s^3 times.
-                double const x = arguments[k].x[t];
-                double const limit2 = 41 + (t < 2 ? 0.0 : arguments[k].log_cube);
-                tails[k][t] = 0;
-                if (x > 0 && x * x > limit2) continue;
+                double const x = arguments.x[t][k];
+                double const limit2 = 41 + (t < 2 ? 0.0 : arguments.log_cube[k]);
                 packed[active] = x;
-                place[active++] = static_cast<std::int16_t>(4 * k + t);
+                place[active] = static_cast<std::int16_t>(t * batch + k);
+                active += !(x > 0 && x * x > limit2);
             }
+        }
         exec::erfc_many(packed, active);
         for (int i = 0; i < active; ++i)
-            tails[place[i] / 4][place[i] % 4] = packed[i];
+            tails[place[i] / batch][place[i] % batch] = packed[i];
     }
 };
 
