@@ -24,7 +24,6 @@ struct View
     std::int64_t size = 0;
 
     GIMDEM_HD T& operator[](std::int64_t i) const { return data[i]; }
-    GIMDEM_HD operator View<T const>() const { return {data, size}; }
 };
 
 /// Growing array of trivially copyable elements on cache-line boundaries. resize() keeps the old elements and leaves

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Proof that the laws and the integrator compile for a GPU: each is instantiated in a device kernel. The CUDA backend that
+/// launches them is not there yet; nothing here runs.
+#include "contact/HertzMindlin.hpp"
+#include "forces/Beetstra.hpp"
+#include "integrate/VelocityVerlet.hpp"
+#include "mapping/GaussianIntegral.hpp"
+#include "mesh/PointLocator.hpp"
+#include "walls/Triangle.hpp"
+
+namespace gimdem::exec
+{
+
+namespace
+{
+
+template <class Kernel>
+__global__ void launch(std::int64_t count, Kernel kernel)
+{
+    auto const i = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
+    if (i < count) kernel(i);
+}
+
+/// One call of every pointwise law.
+struct AllLaws
+{
+    Quad const* position;
+    MeshKernelView mesh;
+    ContactConstants constants;
+    Quad* displacement;
+    double* out;
+
+    GIMDEM_HD void operator()(std::int64_t i) const
+    {
+        Vec3 const x = position[i].xyz();
+        Location const at = CellWalker{mesh}(0, x);
+        Vec3 spring = displacement[i].xyz();
+        HertzMindlin const law{constants, 1e-6};
+        ContactForce const contact = law({Vec3(0, 0, 1), 1e-6, x, 1e-3, 1e-6}, spring);
+        displacement[i] = Quad::of(spring, 0);
+        GaussianIntegral const integral{position[i].w, 1.0, tuned_coefficient(1.0)};
+        out[i] = integral(x.norm()) + beetstra_factor(0.5, at.outside) + contact.force.norm() +
+                 closest_on_triangle(x, spring, contact.tangential, x).point.norm();
+    }
+};
+
+}  // namespace
+
+/// Keeps the instantiations.
+void compile_for_device()
+{
+    launch<HalfKick><<<1, 1>>>(0, HalfKick{});
+    launch<Drift><<<1, 1>>>(0, Drift{});
+    launch<AllLaws><<<1, 1>>>(0, AllLaws{});
+}
+
+}  // namespace gimdem::exec
