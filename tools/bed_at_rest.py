@@ -92,7 +92,9 @@ def figures_at_rest(run: Path) -> list[Figure]:
     height = np.diff(stack(cells, "centre")[:, 0, 2]).mean()
     superficial = float(flow.mean())
 
-    drop = BedSeries(run / "bed.csv")["pressure_drop"][-1] - known["gas_weight_per_area"]
+    # Above the bed the gas carries nothing but itself: its static gradient.
+    static = -float(stack(cells, "pressure_gradient")[-10:, :, 2].mean()) * height * len(void)
+    drop = BedSeries(run / "bed.csv")["pressure_drop"][-1] - static
     laws = {law.__name__: height * sum(layer_gradient(law, layer, superficial, gas) for layer in void if layer.min() < 1)
             for law in (beetstra, ergun)}
     # Inside the bed only: at its surface pressure and flow bend, which is no alternation.
