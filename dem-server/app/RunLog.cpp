@@ -223,8 +223,10 @@ double RunLog::pressure_drop(coupling::FluidFields const& fluid) const
 double RunLog::gas_weight() const
 {
     double volume = 0;
-    for (std::int32_t c = 0; c < mesh_.cell_count(); ++c) volume += mesh_.volume(c);
-    for (std::int64_t p = 0; p < system_.particles().count(); ++p) volume -= system_.particles().volume(p);
+    for (std::int32_t c = 0; c < mesh_.cell_count(); ++c)
+        volume += mesh_.volume(c);
+    for (std::int64_t p = 0; p < system_.particles().count(); ++p)
+        volume -= system_.particles().volume(p);
     Triple const& g = settings_.dem.gravity;
     return fluid_.density * volume * Vec3(g[0], g[1], g[2]).norm();
 }
@@ -232,7 +234,8 @@ double RunLog::gas_weight() const
 double RunLog::mean_diameter() const
 {
     double sum = 0;
-    for (Quad const& x : system_.particles().position.host()) sum += 2 * x.w;
+    for (Quad const& x : system_.particles().position.host())
+        sum += 2 * x.w;
     return system_.particles().count() > 0 ? sum / static_cast<double>(system_.particles().count()) : 0;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Proof that the laws and the integrator compile for a GPU: each is instantiated in a device kernel. The CUDA backend that
-/// launches them is not there yet; nothing here runs.
+/// Proof that the laws and the integrator compile for a GPU: each is instantiated in a device kernel. The CUDA backend
+/// that launches them is not there yet; nothing here runs.
 #include "contact/HertzMindlin.hpp"
 #include "forces/Beetstra.hpp"
 #include "integrate/VelocityVerlet.hpp"

@@ -20,18 +20,22 @@ TEST(BreathingBed, PushesOutTheVolumeItGives)
     auto const void_fraction = [](double t) { return 0.6 + 0.1 * std::sin(2 * M_PI * 10 * t); };
 
     int compared = 0;
-    run_with(fluid, [&](Vector, double t) { return Solid{void_fraction(t), 500, {0, 0, 0}}; },
-             [&](Fluid const& state)
-             {
-                 if (state.time < fluid.time_step / 2) return;
-                 // d(alpha)/dt + d(alpha u)/dz = 0, with the difference that the solver takes over its last step
-                 double const rate =
-                     (void_fraction(state.time) - void_fraction(state.time - fluid.time_step)) / fluid.time_step;
-                 for (std::size_t c = 0; c < state.volume.size(); ++c)
-                     ASSERT_NEAR(state.superficial(c), fluid.superficial - state.centre[c][2] * rate, 1e-6)
-                         << "cell " << c << " at " << state.time << " s";
-                 ++compared;
-             });
+    run_with(
+        fluid,
+        [&](Vector, double t) {
+            return Solid{void_fraction(t), 500, {0, 0, 0}};
+        },
+        [&](Fluid const& state)
+        {
+            if (state.time < fluid.time_step / 2) return;
+            // d(alpha)/dt + d(alpha u)/dz = 0, with the difference that the solver takes over its last step
+            double const rate =
+                (void_fraction(state.time) - void_fraction(state.time - fluid.time_step)) / fluid.time_step;
+            for (std::size_t c = 0; c < state.volume.size(); ++c)
+                ASSERT_NEAR(state.superficial(c), fluid.superficial - state.centre[c][2] * rate, 1e-6)
+                    << "cell " << c << " at " << state.time << " s";
+            ++compared;
+        });
 
     EXPECT_EQ(compared, 499);
 }
@@ -47,14 +51,15 @@ TEST(UniformBed, RelaxesToTheParticlesVelocity)
 
     double expected = fluid.superficial;
     double const time = fluid.time_step * solid.drag_coefficient / (solid.void_fraction * fluid.density);
-    run_with(fluid, [&](Vector, double) { return solid; },
-             [&](Fluid const& state)
-             {
-                 // alpha rho du/dt = K (u_p - u) with the drag at the new velocity
-                 if (state.time > fluid.time_step / 2) expected = (expected + time * 0.3) / (1 + time);
-                 for (auto const& velocity : state.velocity)
-                     ASSERT_NEAR(velocity[2], expected, 1e-9) << "at " << state.time << " s";
-             });
+    run_with(
+        fluid, [&](Vector, double) { return solid; },
+        [&](Fluid const& state)
+        {
+            // alpha rho du/dt = K (u_p - u) with the drag at the new velocity
+            if (state.time > fluid.time_step / 2) expected = (expected + time * 0.3) / (1 + time);
+            for (auto const& velocity : state.velocity)
+                ASSERT_NEAR(velocity[2], expected, 1e-9) << "at " << state.time << " s";
+        });
 
     EXPECT_NEAR(expected, 0.3, 1e-4);
 }

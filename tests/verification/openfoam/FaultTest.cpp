@@ -133,11 +133,15 @@ TEST(ControlC, IsTheServersToAnswer)
 {
     FluidProcess process(small());
 
-    Fluid const state = run_with(process, 0.002, [](Vector, double) { return Solid{0.5, 100, {0, 0, 0}}; },
-                                 [&](Fluid const& now)
-                                 {
-                                     if (now.time > 0.00045 && now.time < 0.00055) ::kill(process.pid(), SIGINT);
-                                 });
+    Fluid const state = run_with(
+        process, 0.002,
+        [](Vector, double) {
+            return Solid{0.5, 100, {0, 0, 0}};
+        },
+        [&](Fluid const& now)
+        {
+            if (now.time > 0.00045 && now.time < 0.00055) ::kill(process.pid(), SIGINT);
+        });
 
     EXPECT_NEAR(state.time, 0.0019, 1e-9);
 }

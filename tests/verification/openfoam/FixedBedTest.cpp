@@ -123,7 +123,8 @@ TEST(RandomFixedBed, HasTheExactPressureDropOfItsLayers)
     std::mt19937 random(1);
     std::vector<Solid> layers(140);
     for (Solid& layer : layers)
-        layer = {std::uniform_real_distribution<>(0.3, 0.9)(random), std::uniform_real_distribution<>(2e4, 2e5)(random),
+        layer = {std::uniform_real_distribution<>(0.3, 0.9)(random),
+                 std::uniform_real_distribution<>(2e4, 2e5)(random),
                  {0, 0, 0}};
     double const height = fluid.lengths[2] / 140;
     auto const layer_at = [&](Vector centre, double) { return layers[static_cast<std::size_t>(centre[2] / height)]; };
@@ -135,8 +136,8 @@ TEST(RandomFixedBed, HasTheExactPressureDropOfItsLayers)
     for (std::size_t i = 0; i < 140; ++i)
     {
         Solid const& layer = layers[i];
-        double const slope = layer.drag_coefficient * fluid.superficial / std::pow(layer.void_fraction, 2) +
-                             fluid.density * gravity;
+        double const slope =
+            layer.drag_coefficient * fluid.superficial / std::pow(layer.void_fraction, 2) + fluid.density * gravity;
         drop += slope * height * (i == 0 || i == 139 ? 0.5 : 1);
         square = std::max(square, std::pow(fluid.superficial / layer.void_fraction, 2));
     }

@@ -71,10 +71,10 @@ std::string velocity(FluidCase const& fluid)
     }
     else
         out << "uniform " << superficial << ";\n";
-    out << boundary(fluid,
-                    "type interstitialInletVelocity; inletVelocity uniform " + superficial + "; value uniform " +
-                        superficial + ";",
-                    "type zeroGradient;", "type " + fluid.sides + ";");
+    out << boundary(
+        fluid,
+        "type interstitialInletVelocity; inletVelocity uniform " + superficial + "; value uniform " + superficial + ";",
+        "type zeroGradient;", "type " + fluid.sides + ";");
     return out.str();
 }
 
@@ -90,8 +90,7 @@ std::string solution(FluidCase const& fluid)
 
 std::string schemes(FluidCase const& fluid)
 {
-    return "ddtSchemes { default Euler; }\ngradSchemes { default " +
-           fluid.gradient +
+    return "ddtSchemes { default Euler; }\ngradSchemes { default " + fluid.gradient +
            "; }\n"
            "divSchemes { default none; div(alphaPhi,U) Gauss " +
            fluid.convection +

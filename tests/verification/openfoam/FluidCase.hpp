@@ -22,20 +22,20 @@ struct FluidCase
         cyclic  ///< what leaves at the top enters at the bottom
     };
 
-    Vector lengths = {0.01, 0.01, 0.1};   ///< [m]
+    Vector lengths = {0.01, 0.01, 0.1};  ///< [m]
     std::array<int, 3> cells = {1, 1, 20};
     Ends ends = Ends::open;
-    std::string sides = "slip";           ///< boundary condition of U on the sides in x; "cyclic" is one
-    double superficial = 0.9;             ///< [m/s]
-    double density = 1.28;                ///< [kg/m^3]
-    double viscosity = 1.7e-5;            ///< [Pa s]
-    Vector gravity = {0, 0, -9.81};       ///< [m/s^2]
-    double time_step = 1e-4;              ///< [s]
-    double end_time = 0.01;               ///< [s]
+    std::string sides = "slip";      ///< boundary condition of U on the sides in x; "cyclic" is one
+    double superficial = 0.9;        ///< [m/s]
+    double density = 1.28;           ///< [kg/m^3]
+    double viscosity = 1.7e-5;       ///< [Pa s]
+    Vector gravity = {0, 0, -9.81};  ///< [m/s^2]
+    double time_step = 1e-4;         ///< [s]
+    double end_time = 0.01;          ///< [s]
     bool momentum_predictor = true;
     std::string convection = "limitedLinearV 1";
     std::string gradient = "Gauss linear";
-    double tolerance = 1e-10;             ///< of the pressure, relative
+    double tolerance = 1e-10;                ///< of the pressure, relative
     std::function<Vector(Vector)> velocity;  ///< at t = 0, of a cell's centre; empty: superficial
 };
 

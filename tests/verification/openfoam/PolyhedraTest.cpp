@@ -58,7 +58,9 @@ TEST(Polyhedra, HaveThePressureDropOfTheBed)
     shake_points(process, fluid, 0.25);
     process.run("mv 0 fields && polyDualMesh 75 -overwrite && mkdir -p 0 && mv fields/* 0");
     Fluid const state = run_with(process, fluid.end_time,
-                                 [&](Vector, double) { return Solid{void_fraction, drag, {0, 0, 0}}; });
+                                 [&](Vector, double) {
+                                     return Solid{void_fraction, drag, {0, 0, 0}};
+                                 });
 
     // Uniform flow and linear pressure are a solution of the discrete equations, but for where OpenFOAM and this test
     // put the centre of a cell with warped faces, a hundredth of a cell apart
@@ -68,7 +70,8 @@ TEST(Polyhedra, HaveThePressureDropOfTheBed)
     double mean = 0;
     for (std::size_t c = 0; c < state.volume.size(); ++c)
     {
-        EXPECT_NEAR(state.pressure[c], slope * (fluid.lengths[2] - state.centre[c][2]), 0.002 * slope * fluid.lengths[2]);
+        EXPECT_NEAR(state.pressure[c], slope * (fluid.lengths[2] - state.centre[c][2]),
+                    0.002 * slope * fluid.lengths[2]);
         EXPECT_NEAR(state.superficial(c), fluid.superficial, 1e-4 * fluid.superficial);
         volume += state.volume[c];
         mean += state.superficial(c) * state.volume[c];

@@ -26,13 +26,13 @@ using Prescription = std::function<Solid(Vector centre, double time)>;
 /// The fluid at one time, with what the server knows of its cells.
 struct Fluid
 {
-    double time = 0;  ///< [s]
-    std::vector<Vector> centre;            ///< [m]
-    std::vector<double> volume;            ///< [m^3]
-    std::vector<double> void_fraction;     ///< at the same time
-    std::vector<Vector> velocity;          ///< [m/s]
-    std::vector<double> pressure;          ///< [Pa]
-    std::vector<Vector> pressure_gradient; ///< [Pa/m]
+    double time = 0;                                       ///< [s]
+    std::vector<Vector> centre;                            ///< [m]
+    std::vector<double> volume;                            ///< [m^3]
+    std::vector<double> void_fraction;                     ///< at the same time
+    std::vector<Vector> velocity;                          ///< [m/s]
+    std::vector<double> pressure;                          ///< [Pa]
+    std::vector<Vector> pressure_gradient;                 ///< [Pa/m]
     std::vector<std::array<double, 9>> velocity_gradient;  ///< [1/s]
     std::vector<Vector> void_fraction_gradient;            ///< [1/m]
     std::map<std::string, double> monitors;

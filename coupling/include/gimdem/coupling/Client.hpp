@@ -30,23 +30,23 @@ namespace gimdem::coupling
 
 struct ClientOptions
 {
-    std::string endpoint;     ///< "ipc:///path/socket" or "tcp://127.0.0.1:port"
-    std::string name;         ///< who we are, for messages and logs
-    double timeout = 30;      ///< a peer silent for this long is dead [s]
-    double connect_time = 60; ///< how long connect() waits for a server to appear [s]
-    double step_time = 3600;  ///< longest wait for the answer of a live server [s]
+    std::string endpoint;              ///< "ipc:///path/socket" or "tcp://127.0.0.1:port"
+    std::string name;                  ///< who we are, for messages and logs
+    double timeout = 30;               ///< a peer silent for this long is dead [s]
+    double connect_time = 60;          ///< how long connect() waits for a server to appear [s]
+    double step_time = 3600;           ///< longest wait for the answer of a live server [s]
     std::optional<Schedule> schedule;  ///< ask for one; left empty, the server's case file decides
-    std::vector<std::string> wants;    ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
+    std::vector<std::string> wants;  ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
 };
 
 /// The server's answer to Hello.
 struct Welcome
 {
-    std::string server;                ///< name and version of the server
-    std::string title;                 ///< of the case
+    std::string server;  ///< name and version of the server
+    std::string title;   ///< of the case
     Schedule schedule = Schedule::serial;
-    double end_time = 0;               ///< the run ends here [s]
-    std::vector<std::string> needs;    ///< fluid fields that this scene needs, names of namespace field
+    double end_time = 0;             ///< the run ends here [s]
+    std::vector<std::string> needs;  ///< fluid fields that this scene needs, names of namespace field
     bool needs_field(std::string const& name) const;
 };
 
@@ -74,7 +74,8 @@ public:
 
     /// @pre send_mesh() or end_step() has been called. Returns the solid that the fluid step must use; its spans live
     /// until the next begin_step or end_step. Sizes of the fields are checked; a NaN or infinity in one is Fault::user.
-    SolidFields const& begin_step(Step const& step, FluidFields const& fluid, std::vector<Monitor> const& monitors = {});
+    SolidFields const& begin_step(Step const& step, FluidFields const& fluid,
+                                  std::vector<Monitor> const& monitors = {});
 
     /// @pre begin_step() has been called. timings tells where this fluid step spent its time.
     void end_step(Timings const& timings = {});
