@@ -142,13 +142,12 @@ static void simulate
 //- The words of a fatal error, without the frame that OpenFOAM prints round them
 static string reasonOf(const error& e)
 {
-    string reason = e.message();
+    string reason(e.message());
 
-    if (isA<IOerror>(e))
+    if (const auto* ioe = dynamic_cast<const IOerror*>(&e))
     {
-        const auto& ioe = static_cast<const IOerror&>(e);
-        reason += " [" + ioe.ioFileName() + ", line "
-          + Foam::name(ioe.ioStartLineNumber()) + ']';
+        reason += " [" + ioe->ioFileName() + ", line "
+          + Foam::name(ioe->ioStartLineNumber()) + ']';
     }
 
     return reason;

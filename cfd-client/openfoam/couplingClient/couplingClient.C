@@ -214,7 +214,6 @@ void Foam::couplingClient::sendMesh
 void Foam::couplingClient::setFluid
 (
     const volVectorField& U,
-    const volTensorField& gradU,
     const volScalarField& p,
     const volScalarField& alpha
 )
@@ -229,7 +228,8 @@ void Foam::couplingClient::setFluid
     }
     if (welcome.needs_field(field::velocity_gradient))
     {
-        fluid_.velocity_gradient = components(gradU.primitiveField());
+        gradU_ = fvc::grad(U)().primitiveField();
+        fluid_.velocity_gradient = components(gradU_);
     }
     if (welcome.needs_field(field::pressure))
     {

@@ -13,10 +13,10 @@
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-template<class Type>
+template<class Type, class FaceValue>
 Foam::tmp<Foam::Field<Type>> Foam::halfCells::sum
 (
-    const GeometricField<Type, fvsPatchField, surfaceMesh>& sf
+    const FaceValue& value
 ) const
 {
     auto tresult = tmp<Field<Type>>::New(mesh_.nCells(), Zero);
@@ -27,22 +27,43 @@ Foam::tmp<Foam::Field<Type>> Foam::halfCells::sum
 
     forAll(nei, facei)
     {
-        result[own[facei]] += sf[facei];
-        result[nei[facei]] += sf[facei];
+        const Type v(value(-1, facei));
+
+        result[own[facei]] += v;
+        result[nei[facei]] += v;
     }
 
-    forAll(sf.boundaryField(), patchi)
+    forAll(mesh_.boundary(), patchi)
     {
         const labelUList& faceCells = mesh_.boundary()[patchi].faceCells();
-        const Field<Type>& psf = sf.boundaryField()[patchi];
 
-        forAll(psf, i)
+        // An empty patch has cells but no values
+        for (label i = 0; i < mesh_.boundary()[patchi].size(); ++i)
         {
-            result[faceCells[i]] += psf[i];
+            result[faceCells[i]] += value(patchi, i);
         }
     }
 
     return tresult;
+}
+
+
+Foam::tmp<Foam::tensorField> Foam::halfCells::sumSfSf
+(
+    const surfaceScalarField& C
+) const
+{
+    return sum<tensor>
+    (
+        [&](const label patchi, const label i)
+        {
+            return patchi < 0
+              ? C[i]*SfHat_[i]*mesh_.Sf()[i]
+              : C.boundaryField()[patchi][i]
+               *SfHat_.boundaryField()[patchi][i]
+               *mesh_.Sf().boundaryField()[patchi][i];
+        }
+    );
 }
 
 
@@ -53,8 +74,11 @@ Foam::halfCells::halfCells(const fvMesh& mesh)
     mesh_(mesh),
     weights_("halfCellWeights", scalar(1) - mesh.weights()),
     SfHat_("SfHat", mesh.Sf()/mesh.magSf()),
-    invSfSf_(inv(sum<tensor>(mesh.Sf()*SfHat_)()))
-{}
+    invSfSf_()
+{
+    surfaceScalarField one(mesh.magSf()/mesh.magSf());
+    invSfSf_ = inv(sumSfSf(one)());
+}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
@@ -87,7 +111,16 @@ Foam::tmp<Foam::vectorField> Foam::halfCells::reconstruct
     const surfaceScalarField& flux
 ) const
 {
-    return invSfSf_ & sum<vector>(SfHat_*flux);
+    return invSfSf_ & sum<vector>
+    (
+        [&](const label patchi, const label i)
+        {
+            return patchi < 0
+              ? SfHat_[i]*flux[i]
+              : SfHat_.boundaryField()[patchi][i]
+               *flux.boundaryField()[patchi][i];
+        }
+    );
 }
 
 
@@ -115,7 +148,7 @@ Foam::tmp<Foam::tensorField> Foam::halfCells::share
     const surfaceScalarField& C
 ) const
 {
-    return invSfSf_ & sum<tensor>(C*SfHat_*mesh_.Sf());
+    return invSfSf_ & sumSfSf(C);
 }
 
 
