@@ -16,7 +16,7 @@ std::string names_of(Table const& table)
 {
     std::string names;
     for (auto const& entry : table)
-        names += (names.empty() ? "" : ", ") + std::string(entry.name);
+        names.append(names.empty() ? "" : ", ").append(entry.name);
     return names;
 }
 

@@ -86,6 +86,7 @@ TEST_P(Run, ExchangesEveryNumberOfEveryStep)
     EXPECT_EQ(welcome.schedule, schedule);
     EXPECT_EQ(welcome.end_time, 1.5);
     EXPECT_EQ(seen.client.name, "test client 1");
+    EXPECT_EQ(seen.client.schedule, std::nullopt) << "no wish";
     EXPECT_EQ(seen.client.fluid.density, 1.2);
     EXPECT_EQ(seen.client.fluid.viscosity, 1.8e-5);
     EXPECT_EQ(seen.mesh.points, mesh.points);
@@ -108,6 +109,23 @@ INSTANTIATE_TEST_SUITE_P(Schemes, Run,
                              return scheme.param.transport +
                                     (scheme.param.schedule == Schedule::serial ? "_serial" : "_overlapped");
                          });
+
+TEST(RunWish, OfTheClientDecidesTheSchedule)
+{
+    for (Schedule const wish : {Schedule::serial, Schedule::overlapped})
+        for (Schedule const offered : {Schedule::serial, Schedule::overlapped})
+        {
+            Server server(server_options(unused_ipc_endpoint()));
+            auto served = in_background([&] { return serve(server, server_terms(offered)); });
+            ClientOptions options = client_options(server.endpoint());
+            options.schedule = wish;
+            Client client(options);
+            EXPECT_EQ(client.connect({1.2, 1.8e-5}).schedule, wish);
+            client.send_mesh(view_of(small_mesh()));
+            client.finish("done");
+            EXPECT_EQ(served.get().client.schedule, wish);
+        }
+}
 
 }  // namespace
 }  // namespace gimdem::test
