@@ -27,6 +27,8 @@ FluidCase channel(int cells)
     fluid.time_step = 2e-3;  // 13 viscous time scales until the end
     fluid.end_time = 0.2;
     fluid.tolerance = 1e-6;
+    fluid.momentum_predictor = true;  // viscosity crosses many cells in a step
+    fluid.correctors = 2;
     return fluid;
 }
 

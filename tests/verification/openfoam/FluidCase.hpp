@@ -32,7 +32,8 @@ struct FluidCase
     Vector gravity = {0, 0, -9.81};  ///< [m/s^2]
     double time_step = 1e-4;         ///< [s]
     double end_time = 0.01;          ///< [s]
-    bool momentum_predictor = true;
+    bool momentum_predictor = false;
+    int correctors = 1;
     std::string convection = "limitedLinearV 1";
     std::string gradient = "Gauss linear";
     double tolerance = 1e-10;                ///< of the pressure, relative
