@@ -84,7 +84,8 @@ std::string solution(FluidCase const& fluid)
     out << "solvers {\n \"p.*\" { solver PCG; preconditioner DIC; tolerance 1e-14; relTol " << fluid.tolerance
         << "; }\n \"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-14; relTol 1e-9; }\n}\n"
         << "PIMPLE { momentumPredictor " << (fluid.momentum_predictor ? "yes" : "no")
-        << "; nOuterCorrectors 1; nCorrectors " << fluid.correctors << "; nNonOrthogonalCorrectors 1; pRefCell 0; pRefValue 0; }\ncache { grad(U); }\n";
+        << "; nOuterCorrectors 1; nCorrectors " << fluid.correctors
+        << "; nNonOrthogonalCorrectors 1; pRefCell 0; pRefValue 0; }\ncache { grad(U); }\n";
     return out.str();
 }
 
