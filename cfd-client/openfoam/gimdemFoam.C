@@ -15,14 +15,15 @@ Description
     equations (model A) of one incompressible Newtonian fluid. Void fraction
     and drag come from a particle server, the fluid's fields go there.
 
-        d(alpha)/dt + div(alpha U) = 0
+        d(alpha)/dt + div(alpha U) = 0                                  (F.1)
         d(alpha U)/dt + div(alpha U U)
-            = div(alpha tau)/rho - alpha (grad p/rho - g) + (M - K U)/rho
-        tau = mu (grad U + grad U^T - 2/3 div U I)
+            = div(alpha tau)/rho - alpha (grad p/rho - g)
+              + (M - K U)/rho                                      (F.2, C.5)
+        tau = mu (grad U + grad U^T - 2/3 div U I)                      (F.3)
 
-    alpha, K and M are those of the server, at the old and the new time; -K U
-    is implicit. PIMPLE; halfCells.H tells how pressure, drag and body forces
-    meet on the faces.
+    (numbers of docs/theory.md). alpha, K and M are the server's; -K U is
+    implicit. PIMPLE; halfCells.H tells how pressure, drag and body forces meet
+    on the faces, README.md what a case needs.
 
 \*---------------------------------------------------------------------------*/
 
@@ -82,28 +83,40 @@ static void simulate
     #include "createControl.H"
     #include "createTimeControls.H"
     #include "createFields.H"
+    #include "checkCase.H"
 
     particles.connect(rho, mu);
     runTime.setEndTime(particles.endTime());
-    particles.sendMesh(mesh, alpha, K, M);
+    particles.sendMesh(mesh);
+    particles.getSolid(alpha, K, M);
 
     #include "initialFlux.H"
     #include "setFluid.H"
 
     Info<< "Starting time loop\n" << endl;
+    Sout.precision(4);
 
     while (runTime.run() && !particles.stopRequested())
     {
         #include "readTimeControls.H"
         #include "setTimeStep.H"
 
-        const scalar t = runTime.value();
         const scalar deltaT = runTime.deltaTValue();
+        try
+        {
+            particles.beginStep(runTime.value(), deltaT);
+        }
+        catch (const std::exception&)
+        {
+            // Keep the fluid where the particles ended
+            runTime.writeNow();
+            throw;
+        }
+
+        clockTime clock;
         ++runTime;
 
-        particles.beginStep(t, deltaT, alpha, K, M);
-        clockTime clock;
-
+        particles.getSolid(alpha, K, M);
         #include "updateSolid.H"
 
         while (pimple.loop())
@@ -116,7 +129,13 @@ static void simulate
             }
         }
 
-        #include "checkState.H"
+        requireConvergent
+        (
+            runTime,
+            "velocity in m/s",
+            Foam::sqrt(gMax(magSqr(U.primitiveField()))),
+            pimple.dict().getOrDefault<scalar>("maxVelocity", 340)
+        );
         #include "setFluid.H"
 
         const scalar compute = clock.timeIncrement();
@@ -178,8 +197,8 @@ int main(int argc, char *argv[])
 
     #include "setRootCase.H"
 
-    // A NaN is found by checkState.H and named; a fault is told in words and to
-    // the server, without a stack trace
+    // Every fault is told in words, here and to the server, without a stack trace;
+    // a NaN ends in requireConvergent
     sigFpe::unset();
     FatalError.throwExceptions();
     FatalIOError.throwExceptions();

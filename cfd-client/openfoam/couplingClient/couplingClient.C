@@ -94,55 +94,6 @@ ClientOptions Foam::couplingClient::options
 }
 
 
-void Foam::couplingClient::copy
-(
-    const SolidFields& solid,
-    volScalarField& alpha,
-    volScalarField& K,
-    volVectorField& M
-)
-{
-    scalarField& a = alpha.primitiveFieldRef();
-    scalarField& k = K.primitiveFieldRef();
-    vectorField& m = M.primitiveFieldRef();
-
-    forAll(a, celli)
-    {
-        a[celli] = solid.void_fraction[celli];
-
-        if (!(a[celli] > 0 && a[celli] < 1 + 1e-6))
-        {
-            FatalErrorInFunction
-                << "the server sent void fraction " << a[celli] << " for cell "
-                << celli << " at " << alpha.mesh().C()[celli] << " m (the fluid"
-                << " needs 0 < alpha <= 1); check the server's mapping"
-                << exit(FatalError);
-        }
-    }
-
-    if (solid.drag_coefficient.empty())
-    {
-        k = 0;
-        m = Zero;
-    }
-    else
-    {
-        forAll(k, celli)
-        {
-            k[celli] = solid.drag_coefficient[celli];
-            for (direction d = 0; d < vector::nComponents; ++d)
-            {
-                m[celli][d] = solid.drag_momentum[3*celli + d];
-            }
-        }
-    }
-
-    alpha.correctBoundaryConditions();
-    K.correctBoundaryConditions();
-    M.correctBoundaryConditions();
-}
-
-
 // * * * * * * * * * * * * * Static Member Functions * * * * * * * * * * * * //
 
 void Foam::couplingClient::addOptions()
@@ -185,7 +136,8 @@ void Foam::couplingClient::connect
 
     const Welcome& welcome = client_.connect(fluid);
 
-    Info<< "Connected to " << welcome.server << ": " << welcome.title << nl
+    Info<< "Connected to " << welcome.server.c_str() << ": "
+        << welcome.title.c_str() << nl
         << "    schedule "
         << (welcome.schedule == Schedule::serial ? "serial" : "overlapped")
         << ", end time " << welcome.end_time << " s" << nl << endl;
@@ -198,16 +150,9 @@ Foam::scalar Foam::couplingClient::endTime() const
 }
 
 
-void Foam::couplingClient::sendMesh
-(
-    const polyMesh& mesh,
-    volScalarField& alpha,
-    volScalarField& K,
-    volVectorField& M
-)
+void Foam::couplingClient::sendMesh(const polyMesh& mesh)
 {
     client_.send_mesh(polyMeshArrays(mesh).view());
-    copy(client_.solid(), alpha, K, M);
 }
 
 
@@ -262,20 +207,63 @@ void Foam::couplingClient::monitor
 }
 
 
-void Foam::couplingClient::beginStep
-(
-    const scalar t,
-    const scalar deltaT,
-    volScalarField& alpha,
-    volScalarField& K,
-    volVectorField& M
-)
+void Foam::couplingClient::beginStep(const scalar t, const scalar deltaT)
 {
     ++step_.number;
     step_.time = t;
     step_.dt = deltaT;
 
-    copy(client_.begin_step(step_, fluid_, monitors_), alpha, K, M);
+    client_.begin_step(step_, fluid_, monitors_);
+}
+
+
+void Foam::couplingClient::getSolid
+(
+    volScalarField& alpha,
+    volScalarField& K,
+    volVectorField& M
+) const
+{
+    const SolidFields& solid = client_.solid();
+
+    scalarField& a = alpha.primitiveFieldRef();
+    scalarField& k = K.primitiveFieldRef();
+    vectorField& m = M.primitiveFieldRef();
+
+    forAll(a, celli)
+    {
+        a[celli] = solid.void_fraction[celli];
+
+        if (!(a[celli] > 0 && a[celli] < 1 + 1e-6))
+        {
+            FatalErrorInFunction
+                << "the server sent void fraction " << a[celli] << " for cell "
+                << celli << " at " << alpha.mesh().C()[celli] << " m (the fluid"
+                << " needs 0 < alpha <= 1); check the server's mapping"
+                << exit(FatalError);
+        }
+    }
+
+    if (solid.drag_coefficient.empty())
+    {
+        k = 0;
+        m = Zero;
+    }
+    else
+    {
+        forAll(k, celli)
+        {
+            k[celli] = solid.drag_coefficient[celli];
+            for (direction d = 0; d < vector::nComponents; ++d)
+            {
+                m[celli][d] = solid.drag_momentum[3*celli + d];
+            }
+        }
+    }
+
+    alpha.correctBoundaryConditions();
+    K.correctBoundaryConditions();
+    M.correctBoundaryConditions();
 }
 
 

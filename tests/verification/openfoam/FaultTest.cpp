@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <fstream>
+#include <vector>
 
 #include "Endpoint.hpp"
 #include "PrescribedParticles.hpp"
@@ -78,6 +79,14 @@ TEST(Fault, RefusesAnUnknownSchedule)
                 AllOf(HasSubstr("both"), HasSubstr("overlapped")));
 }
 
+TEST(Fault, RefusesATimeSchemeThatTheFacesDoNotKnow)
+{
+    FluidProcess process(small());
+    replace(process, "system/fvSchemes", "Euler", "backward");
+
+    EXPECT_THAT(words_alone(process, "-endpoint ipc:///nowhere"), AllOf(HasSubstr("backward"), HasSubstr("Euler")));
+}
+
 TEST(Fault, RefusesPressureDividedByDensity)
 {
     FluidProcess process(small());
@@ -127,6 +136,66 @@ TEST(Fault, OfTheServerIsTold)
 
     EXPECT_EQ(process.wait(), 1);
     EXPECT_THAT(process.log(), HasSubstr("cell 7 is inside out"));
+}
+
+/// Serves some steps, then does `end` before it answers one more.
+template <class End>
+int exit_code_after(FluidProcess& process, int steps, End end)
+{
+    coupling::ServerOptions options;
+    options.endpoint = unused_ipc_endpoint();
+    options.name = "server that ends";
+    options.timeout = 10;
+    coupling::Server server(options);
+    process.start("-endpoint " + server.endpoint());
+
+    server.wait_for_client({"ending", coupling::Schedule::serial, 1, {}});
+    std::vector<double> const void_fraction(static_cast<std::size_t>(server.receive_mesh().cell_count), 0.5);
+    std::vector<double> const drag(void_fraction.size(), 100);
+    std::vector<double> const momentum(3 * void_fraction.size(), 0);
+    coupling::SolidFields solid;
+    solid.void_fraction = void_fraction;
+    solid.drag_coefficient = drag;
+    solid.drag_momentum = momentum;
+    server.accept_mesh(solid);
+    for (int step = 0; server.receive_fluid(); ++step)
+    {
+        if (step == steps && !end(server)) break;
+        server.send_solid(solid, {});
+    }
+    return process.wait();
+}
+
+TEST(Fault, OfTheServerLeavesTheLastFluid)
+{
+    FluidProcess process(small());
+
+    EXPECT_EQ(exit_code_after(process, 7,
+                              [](coupling::Server& server)
+                              {
+                                  server.abort("out of memory");
+                                  return false;
+                              }),
+              1);
+
+    EXPECT_THAT(process.log(), HasSubstr("out of memory"));
+    EXPECT_TRUE(std::filesystem::exists(process.folder() / "0.0007" / "U"));
+}
+
+TEST(StopRequest, EndsTheRunInOrder)
+{
+    FluidProcess process(small());
+
+    EXPECT_EQ(exit_code_after(process, 7,
+                              [](coupling::Server& server)
+                              {
+                                  server.request_stop("Ctrl-C");
+                                  return true;
+                              }),
+              0);
+
+    EXPECT_THAT(process.log(), HasSubstr("Ctrl-C"));
+    EXPECT_TRUE(std::filesystem::exists(process.folder() / "0.0008" / "U"));
 }
 
 TEST(ControlC, IsTheServersToAnswer)
