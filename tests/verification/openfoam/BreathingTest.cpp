@@ -49,8 +49,10 @@ TEST(ClosedVessel, BearsAVoidFractionThatDoesNotAddUp)
     fluid.end_time = 0.005;
 
     // 1 % of the volume comes and goes, as where the server clips
-    Fluid const state = run_with(
-        fluid, [](Vector, double t) { return Solid{0.6 + 0.01 * std::sin(2 * M_PI * 100 * t), 500, {0, 0, 0}}; });
+    Fluid const state = run_with(fluid,
+                                 [](Vector, double t) {
+                                     return Solid{0.6 + 0.01 * std::sin(2 * M_PI * 100 * t), 500, {0, 0, 0}};
+                                 });
 
     for (auto const& velocity : state.velocity)
         for (int d : {0, 1, 2})
