@@ -92,15 +92,13 @@ static void simulate
 
     #include "initialFlux.H"
     #include "setFluid.H"
+    #include "setTimeStep.H"
 
     Info<< "Starting time loop\n" << endl;
     Sout.precision(4);
 
     while (runTime.run() && !particles.stopRequested())
     {
-        #include "readTimeControls.H"
-        #include "setTimeStep.H"
-
         const scalar deltaT = runTime.deltaTValue();
         try
         {
@@ -143,6 +141,9 @@ static void simulate
         particles.endStep(compute, clock.timeIncrement());
 
         #include "reportStep.H"
+
+        #include "readTimeControls.H"
+        #include "setTimeStep.H"
     }
 
     if (!runTime.writeTime())

@@ -28,4 +28,15 @@ void for_each(Execution const& execution, Index count, Kernel kernel)
         kernel(i);
 }
 
+/// The same for calls that differ much in work: threads take some as they become free.
+template <class Kernel>
+void for_each_uneven(Execution const& execution, Index count, Kernel kernel)
+{
+    static_assert(std::is_trivially_copyable_v<Kernel>, "a kernel must be a trivially copyable functor over views");
+    if (execution.backend == Backend::serial || execution.threads == 1) return for_each(execution, count, kernel);
+#pragma omp parallel for schedule(dynamic, 64) num_threads(execution.threads)
+    for (Index i = 0; i < count; ++i)
+        kernel(i);
+}
+
 }  // namespace gimdem::exec

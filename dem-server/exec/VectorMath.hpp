@@ -29,6 +29,17 @@ inline constexpr double erfcx_coefficients[] = {
 inline constexpr int vector_width = 32;
 using Lanes = Eigen::Array<double, vector_width, 1>;
 
+/// As many as one register of the widest kind holds.
+inline constexpr int octet = 8;
+using Octet = Eigen::Array<double, octet, 1>;
+
+/// values[place[i]] for each lane.
+inline Octet gather(double const* values, Eigen::Array<std::int32_t, octet, 1> const& place)
+{
+    return Octet{{values[place[0]], values[place[1]], values[place[2]], values[place[3]], values[place[4]],
+                  values[place[5]], values[place[6]], values[place[7]]}};
+}
+
 // The few operations that a law needs to be written once for a number and for Lanes.
 GIMDEM_HD inline double choose(bool condition, double yes, double no)
 {

@@ -8,8 +8,7 @@
 
 #include "core/Error.hpp"
 #include "exec/ForEach.hpp"
-#include "exec/VectorMath.hpp"
-#include "mapping/GaussianIntegral.hpp"
+#include "mapping/WeightKernel.hpp"
 
 namespace gimdem
 {
@@ -37,127 +36,70 @@ struct LocateKernel
     }
 };
 
-/// Weights (G.8) of one particle on the candidates of its cell, a few candidates at a time.
-struct WeightKernel
+/// What the particles of the i-th occupied cell give to its candidates.
+struct GiveKernel
 {
+    std::int32_t const* occupied;
+    WeightRows rows;
+    double const* weights;
     Quad const* position;
-    std::int32_t const* cell_of;
-    Quad const* cell;
-    CellSize const* cell_sizes;
-    std::int32_t const* layer_offsets;
-    std::int32_t const* layer_cells;
-    std::int32_t const* weight_offsets;
-    double* weights;
+    Impulse const* impulses;  ///< null: volumes only
+    std::int64_t const* first_share;
+    Share* shares;
 
-    void operator()(std::int64_t p) const
+    GIMDEM_HD void operator()(std::int64_t i) const
     {
-        std::int32_t const begin = layer_offsets[cell_of[p]];
-        int const count = layer_offsets[cell_of[p] + 1] - begin;
-        double* const w = weights + weight_offsets[p];
-        for (int k = 0; k < count; k += batch)
-            integrate(position[p], layer_cells + begin + k, count - k < batch ? count - k : batch, w + k);
-
-        double total = 0;
-        for (int k = 0; k < count; ++k)
-            total += w[k];
-        // Cells so far away that every integral underflows: the own cell takes all.
-        if (!(total > 0)) w[0] = total = 1;
-        for (int k = 0; k < count; ++k)
-            w[k] /= total;
+        std::int32_t const c = occupied[i];
+        int const length = rows.length(c);
+        Share* const to = shares + first_share[c];
+        for (int k = 0; k < length; ++k)
+            to[k] = {};
+        double const* w = weights + rows.first[c];
+        for (std::int32_t m = rows.particle_offsets[c]; m < rows.particle_offsets[c + 1]; ++m, w += length)
+        {
+            Share const whole = share_of(rows.members[m]);
+            for (int k = 0; k < length; ++k)
+                to[k].add(w[k], whole);
+        }
     }
 
 private:
-    static constexpr int batch = exec::vector_width;
-
-    /// Shared integrals of one particle with up to `batch` cells; the lanes past `count` repeat the first one.
-    void integrate(Quad const& x, std::int32_t const* cells, int count, double* shared) const
+    GIMDEM_HD Share share_of(std::int32_t p) const
     {
-        double const log_radius = std::log(x.w);
-        double const tuning = 0.579 * std::exp(3 * 0.132 * log_radius);
-        exec::Lanes mu2, radius, log_cell, factor;
-        for (int k = 0; k < batch; ++k)
-        {
-            std::int32_t const c = cells[k < count ? k : 0];
-            mu2[k] = (x.xyz() - cell[c].xyz()).squaredNorm();
-            radius[k] = cell_sizes[c].radius;
-            log_cell[k] = cell_sizes[c].log_radius;
-            factor[k] = cell_sizes[c].tuning;
-        }
-        ParticleAndCell<exec::Lanes> const pairs{x.w, radius / x.w, log_cell - log_radius, tuning * factor};
-        TailArguments<exec::Lanes> const arguments = pairs(mu2.sqrt());
-        exec::Lanes tails[4];
-        take_tails(arguments, count, tails);
-        exec::Lanes const sum = arguments.sum(tails[0], tails[1], tails[2], tails[3]);
-        for (int k = 0; k < count; ++k)
-            shared[k] = sum[k];
-    }
-
-    /// erfc of all arguments, packed so that no lane is idle; a tail below 1e-18 of the particle is nothing.
-    static void take_tails(TailArguments<exec::Lanes> const& arguments, int count, exec::Lanes* tails)
-    {
-        double packed[4 * batch];
-        std::int16_t place[4 * batch];
-        int active = 0;
-        for (int t = 0; t < 4; ++t)
-        {
-            tails[t].setZero();
-            for (int k = 0; k < count; ++k)
-            {
-                // erfc(x) < exp(-x^2); the last two tails count s^3 times.
-                double const x = arguments.x[t][k];
-                double const limit2 = 41 + (t < 2 ? 0.0 : arguments.log_cube[k]);
-                packed[active] = x;
-                place[active] = static_cast<std::int16_t>(t * batch + k);
-                active += !(x > 0 && x * x > limit2);
-            }
-        }
-        exec::erfc_many(packed, active);
-        for (int i = 0; i < active; ++i)
-            tails[place[i] / batch][place[i] % batch] = packed[i];
+        Share whole{{0, 0, 0, 0}, sphere_volume(position[p].w)};
+        if (impulses != nullptr) whole.drag = impulses[p].drag;
+        return whole;
     }
 };
 
-/// Sums of one cell over the particles in the cells around it.
-struct SumKernel
+/// Sums of one cell: its shares of the particles in the cells around it.
+struct TakeKernel
 {
     std::int32_t const* layer_offsets;
     std::int32_t const* layer_cells;
     std::int32_t const* reverse_slot;
-    std::int32_t const* particle_offsets;
-    std::int32_t const* particle_members;
-    std::int32_t const* weight_offsets;
-    double const* weights;
-    Quad const* position;
-    Impulse const* impulses;  ///< null: volumes only
+    std::int64_t const* first_share;
+    Share const* shares;
     double* solid_volume;
     Quad* drag;
 
     GIMDEM_HD void operator()(std::int64_t c) const
     {
-        double volume = 0, coefficient = 0;
-        Vec3 impulse = Vec3::Zero();
+        Share sum{};
         for (std::int32_t k = layer_offsets[c]; k < layer_offsets[c + 1]; ++k)
         {
-            std::int32_t const other = layer_cells[k];
-            for (std::int32_t m = particle_offsets[other]; m < particle_offsets[other + 1]; ++m)
-            {
-                std::int32_t const p = particle_members[m];
-                double const w = weights[weight_offsets[p] + reverse_slot[k]];
-                volume += w * sphere_volume(position[p].w);
-                if (impulses == nullptr) continue;
-                impulse += w * impulses[p].drag.xyz();
-                coefficient += w * impulses[p].drag.w;
-            }
+            std::int64_t const first = first_share[layer_cells[k]];
+            if (first >= 0) sum.add(1, shares[first + reverse_slot[k]]);
         }
-        solid_volume[c] = volume;
-        drag[c] = Quad::of(impulse, coefficient);
+        solid_volume[c] = sum.volume;
+        drag[c] = sum.drag;
     }
 };
 
 }  // namespace
 
 Mapper::Mapper(exec::Execution execution, PolyMesh const& mesh)
-    : execution_(execution), mesh_(mesh), layers_(mesh), start_cells_(mesh)
+    : execution_(execution), mesh_(mesh), layers_(mesh), start_cells_(mesh), tables_(mesh)
 {
     cell_sizes_.resize(mesh.cell_count());
     for (std::int32_t c = 0; c < mesh.cell_count(); ++c)
@@ -207,29 +149,63 @@ void Mapper::locate(ParticleState const& particles, exec::Buffer<std::uint8_t> c
     exec::group_by_key(cell_of_.host(), mesh_.cell_count(), by_cell_);
 }
 
-void Mapper::compute_weights(ParticleState const& particles)
+// Consecutive rows for the particles of a cell, cell after cell.
+void Mapper::lay_out_rows()
 {
-    std::int64_t const n = particles.count();
-    weight_offsets_.resize(n + 1);
-    for (std::int64_t p = 0; p < n; ++p)
-        weight_offsets_[p] = layers_.offsets[cell_of_[p] + 1] - layers_.offsets[cell_of_[p]];
-    weights_.resize(exec::exclusive_scan(weight_offsets_.host()));
-    exec::for_each(execution_, n,
-                   WeightKernel{particles.position.view().data, cell_of_.view().data, mesh_.view().cell,
-                                cell_sizes_.view().data, layers_.offsets.view().data, layers_.cells.view().data,
-                                weight_offsets_.view().data, weights_.view().data});
+    first_weight_.resize(mesh_.cell_count());
+    first_share_.resize(mesh_.cell_count());
+    occupied_.resize(mesh_.cell_count());
+    std::int64_t n_occupied = 0, n_weights = 0, n_shares = 0;
+    for (std::int32_t c = 0; c < mesh_.cell_count(); ++c)
+    {
+        std::int64_t const n_particles = by_cell_.offsets[c + 1] - by_cell_.offsets[c];
+        std::int64_t const length = layers_.offsets[c + 1] - layers_.offsets[c];
+        first_weight_[c] = n_weights;
+        first_share_[c] = n_particles > 0 ? n_shares : -1;
+        n_weights += n_particles * length;
+        if (n_particles == 0) continue;
+        n_shares += length;
+        occupied_[n_occupied++] = c;
+    }
+    occupied_.resize(n_occupied);
+    weights_.resize(n_weights);
+    shares_.resize(n_shares);
 }
 
-void Mapper::sum_into_cells(ParticleState const& particles, exec::Buffer<Impulse> const& impulses, CellSums& sums) const
+WeightRows Mapper::rows() const
 {
+    return {layers_.offsets.view().data, layers_.cells.view().data, by_cell_.offsets.view().data,
+            by_cell_.members.view().data, first_weight_.view().data};
+}
+
+void Mapper::compute_weights(ParticleState const& particles)
+{
+    lay_out_rows();
+    auto const compute = [&]<class Integrals>(typename Integrals::Source source)
+    {
+        exec::for_each_uneven(execution_, occupied_.size(),
+                              WeightKernel<Integrals>{occupied_.view().data, particles.position.view().data,
+                                                      mesh_.view().cell, rows(), source, weights_.view().data});
+    };
+    if (tables_.provide(particles))
+        compute.operator()<TabulatedIntegrals>(tables_.view());
+    else
+        compute.operator()<ClosedFormIntegrals>(cell_sizes_.view().data);
+}
+
+void Mapper::sum_into_cells(ParticleState const& particles, exec::Buffer<Impulse> const& impulses, CellSums& sums)
+{
+    exec::for_each_uneven(
+        execution_, occupied_.size(),
+        GiveKernel{occupied_.view().data, rows(), weights_.view().data, particles.position.view().data,
+                   impulses.size() == particles.count() ? impulses.view().data : nullptr, first_share_.view().data,
+                   shares_.view().data});
     sums.solid_volume.resize(mesh_.cell_count());
     sums.drag.resize(mesh_.cell_count());
     exec::for_each(execution_, mesh_.cell_count(),
-                   SumKernel{layers_.offsets.view().data, layers_.cells.view().data, reverse_slot_.view().data,
-                             by_cell_.offsets.view().data, by_cell_.members.view().data, weight_offsets_.view().data,
-                             weights_.view().data, particles.position.view().data,
-                             impulses.size() == particles.count() ? impulses.view().data : nullptr,
-                             sums.solid_volume.view().data, sums.drag.view().data});
+                   TakeKernel{layers_.offsets.view().data, layers_.cells.view().data, reverse_slot_.view().data,
+                              first_share_.view().data, shares_.view().data, sums.solid_volume.view().data,
+                              sums.drag.view().data});
 }
 
 void Mapper::permute(std::span<std::int32_t const> order)

@@ -10,6 +10,8 @@
 #include "exec/Buffer.hpp"
 #include "exec/Execution.hpp"
 #include "exec/Sort.hpp"
+#include "mapping/GaussianTable.hpp"
+#include "mapping/WeightKernel.hpp"
 #include "mesh/PointLocator.hpp"
 #include "mesh/PolyMesh.hpp"
 #include "particles/ParticleState.hpp"
@@ -17,12 +19,20 @@
 namespace gimdem
 {
 
-/// What the Gaussian Integral Method needs of a cell's volume, computed once.
-struct CellSize
+/// A part of one or more particles: what one cell receives.
+struct Share
 {
-    double radius;      ///< of the sphere of its volume [m]
-    double log_radius;  ///< its logarithm
-    double tuning;      ///< radius^(-3 * 0.132): the cell's factor of Eq. 27
+    Quad drag;      ///< drag impulse [N s], w: of its coefficient [kg]
+    double volume;  ///< [m^3]
+
+    GIMDEM_HD void add(double weight, Share const& other)
+    {
+        drag.x += weight * other.drag.x;
+        drag.y += weight * other.drag.y;
+        drag.z += weight * other.drag.z;
+        drag.w += weight * other.drag.w;
+        volume += weight * other.volume;
+    }
 };
 
 /// Cell sums of one mapping.
@@ -42,32 +52,40 @@ public:
     /// patch or sank deeper into a wall than its radius.
     void locate(ParticleState const& particles, exec::Buffer<std::uint8_t> const& wall_faces);
 
-    /// Weights of every particle by the Gaussian Integral Method with Eq. 27, both layers.
+    /// Weights of every particle by the Gaussian Integral Method with Eq. 27, both layers: from tables where the scene
+    /// has few radii and cell sizes.
     void compute_weights(ParticleState const& particles);
 
     /// Sums volumes and impulses into cells.
-    void sum_into_cells(ParticleState const& particles, exec::Buffer<Impulse> const& impulses, CellSums& sums) const;
+    void sum_into_cells(ParticleState const& particles, exec::Buffer<Impulse> const& impulses, CellSums& sums);
 
     /// Particles changed places: the particle now at i was at order[i].
     void permute(std::span<std::int32_t const> order);
 
     exec::Buffer<std::int32_t> const& cell_of() const { return cell_of_; }
-    exec::Buffer<std::int32_t> const& weight_offsets() const { return weight_offsets_; }
+    /// A row for each particle, cell after cell and in rising order within a cell: weights on layers() of its cell.
     exec::Buffer<double> const& weights() const { return weights_; }
     CellLayers const& layers() const { return layers_; }
 
 private:
+    void lay_out_rows();
+    WeightRows rows() const;
+
     exec::Execution execution_;
     PolyMesh const& mesh_;
     CellLayers layers_;
     StartCells start_cells_;
+    GaussianTables tables_;
     exec::Buffer<CellSize> cell_sizes_;
-    exec::Buffer<std::int32_t>
-        reverse_slot_;  ///< for entry k of layers: place of the row's cell in the row of cells[k]
+    /// For entry k of layers: place of the row's cell in the row of cells[k].
+    exec::Buffer<std::int32_t> reverse_slot_;
     exec::Buffer<std::int32_t> cell_of_;
-    exec::Buffer<std::int32_t> weight_offsets_;
-    exec::Buffer<double> weights_;
     exec::Groups by_cell_;
+    exec::Buffer<std::int32_t> occupied_;  ///< cells that hold particles
+    exec::Buffer<std::int64_t> first_weight_;
+    exec::Buffer<double> weights_;
+    exec::Buffer<std::int64_t> first_share_;  ///< -1 for a cell without particles
+    exec::Buffer<Share> shares_;
 };
 
 }  // namespace gimdem
