@@ -20,8 +20,7 @@ struct PairKernel
     std::int32_t material_count;
     double dt;
     Quad* displacement;
-    Quad* pair_force;
-    Quad* pair_torque;
+    PairForce* forces;
 
     GIMDEM_HD void operator()(std::int64_t k) const
     {
@@ -35,7 +34,7 @@ struct PairKernel
         if (!(distance2 < reach * reach))
         {
             displacement[k] = {0, 0, 0, 0};
-            pair_force[k] = {0, 0, 0, 0};
+            forces[k].force.w = 0;
             return;
         }
         double const distance = std::sqrt(distance2);
@@ -57,8 +56,7 @@ struct PairKernel
         ContactForce const result = law(contact, spring);
 
         displacement[k] = Quad::of(spring, 0);
-        pair_force[k] = Quad::of(result.force, 1);
-        pair_torque[k] = Quad::of(normal.cross(result.tangential), overlap);
+        forces[k] = {Quad::of(result.force, 1), Quad::of(normal.cross(result.tangential), overlap)};
     }
 };
 
@@ -69,8 +67,7 @@ struct GatherKernel
     std::int32_t const* row_offsets;
     std::int32_t const* second_offsets;
     std::int32_t const* second_members;
-    Quad const* pair_force;
-    Quad const* pair_torque;
+    PairForce const* forces;
 
     GIMDEM_HD void operator()(std::int64_t i) const
     {
@@ -79,16 +76,17 @@ struct GatherKernel
         Vec3 torque = Vec3::Zero();
         for (std::int32_t k = row_offsets[i]; k < row_offsets[i + 1]; ++k)
         {
-            if (pair_force[k].w == 0) continue;
-            force += pair_force[k].xyz();
-            torque -= (radius - pair_torque[k].w / 2) * pair_torque[k].xyz();
+            PairForce const& pair = forces[k];
+            if (pair.force.w == 0) continue;
+            force += pair.force.xyz();
+            torque -= (radius - pair.torque.w / 2) * pair.torque.xyz();
         }
         for (std::int32_t m = second_offsets[i]; m < second_offsets[i + 1]; ++m)
         {
-            std::int32_t const k = second_members[m];
-            if (pair_force[k].w == 0) continue;
-            force -= pair_force[k].xyz();
-            torque -= (radius - pair_torque[k].w / 2) * pair_torque[k].xyz();
+            PairForce const& pair = forces[second_members[m]];
+            if (pair.force.w == 0) continue;
+            force -= pair.force.xyz();
+            torque -= (radius - pair.torque.w / 2) * pair.torque.xyz();
         }
         particles.force[i] = Quad::of(force, 0);
         particles.torque[i] = Quad::of(torque, 0);
@@ -105,12 +103,10 @@ void ParticleContacts::sum_forces(ParticleState& particles, NeighborList& list, 
 
 void ParticleContacts::compute_pairs(ParticleState& particles, NeighborList& list, double dt)
 {
-    pair_force_.resize(list.pair_count());
-    pair_torque_.resize(list.pair_count());
-    exec::for_each(
-        execution_, list.pair_count(),
-        PairKernel{particles.view(), list.first.view().data, list.second.view().data, constants_.data, material_count_,
-                   dt, list.displacement.view().data, pair_force_.view().data, pair_torque_.view().data});
+    pair_forces_.resize(list.pair_count());
+    exec::for_each(execution_, list.pair_count(),
+                   PairKernel{particles.view(), list.first.view().data, list.second.view().data, constants_.data,
+                              material_count_, dt, list.displacement.view().data, pair_forces_.view().data});
 }
 
 void ParticleContacts::gather(ParticleState& particles, NeighborList const& list)
@@ -118,7 +114,7 @@ void ParticleContacts::gather(ParticleState& particles, NeighborList const& list
     exec::for_each(
         execution_, particles.count(),
         GatherKernel{particles.view(), list.row_offsets.view().data, list.pairs_by_second.offsets.view().data,
-                     list.pairs_by_second.members.view().data, pair_force_.view().data, pair_torque_.view().data});
+                     list.pairs_by_second.members.view().data, pair_forces_.view().data});
 }
 
 }  // namespace gimdem

@@ -14,6 +14,13 @@
 namespace gimdem
 {
 
+/// What one pair of the list does: one line of the cache.
+struct alignas(64) PairForce
+{
+    Quad force;   ///< on the first particle [N]; w: 1 where the pair touches, else 0 and the rest means nothing
+    Quad torque;  ///< normal x tangential force [N], w: overlap [m]
+};
+
 class ParticleContacts
 {
 public:
@@ -32,8 +39,7 @@ private:
     exec::Execution execution_;
     exec::View<ContactConstants const> constants_;
     std::int32_t material_count_;
-    exec::Buffer<Quad> pair_force_;   ///< on the first particle [N]; w: 1 where the pair touches
-    exec::Buffer<Quad> pair_torque_;  ///< normal x tangential force [N], w: overlap [m]
+    exec::Buffer<PairForce> pair_forces_;
 };
 
 }  // namespace gimdem

@@ -40,7 +40,7 @@ struct DemSettings
     Triple gravity{0, 0, 0};         ///< [m/s^2]
     int threads = 0;                 ///< 0: all cores
     std::string backend = "openmp";  ///< serial | openmp
-    double skin = 0.1;               ///< of the neighbour list, in units of the smallest radius [1]
+    double skin = 0.3;               ///< of the neighbour list, in units of the smallest radius [1]
 };
 
 /// [[materials]]

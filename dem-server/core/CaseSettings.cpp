@@ -67,7 +67,7 @@ Fields<DemSettings> const& settings_of(DemSettings const&)
         required("gravity",   &S::gravity,   "m/s^2", anything(), "[0.0, 0.0, -9.81]", "acceleration of free fall"),
         optional("threads",   &S::threads,   "", at_least(0), "0", "threads to use, 0: all cores"),
         optional("backend",   &S::backend,   "", one_of({"serial", "openmp"}), "\"openmp\"", "what runs the loops"),
-        optional("skin",      &S::skin,      "", fraction(0, 1), "0.1",
+        optional("skin",      &S::skin,      "", fraction(0, 1), "0.3",
                  "of the neighbour list, in units of the smallest radius"),
     };
     return fields;

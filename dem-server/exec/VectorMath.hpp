@@ -40,7 +40,7 @@ inline Octet gather(double const* values, Eigen::Array<std::int32_t, octet, 1> c
                   values[place[5]], values[place[6]], values[place[7]]}};
 }
 
-// The few operations that a law needs to be written once for a number and for Lanes.
+// The few operations that a law needs to be written once for a number and for many (an Eigen array).
 GIMDEM_HD inline double choose(bool condition, double yes, double no)
 {
     return condition ? yes : no;
@@ -49,14 +49,33 @@ GIMDEM_HD inline double root(double x)
 {
     return std::sqrt(x);
 }
-template <class Condition>
-Lanes choose(Condition const& condition, Lanes const& yes, Lanes const& no)
+GIMDEM_HD inline double exponential(double x)
+{
+    return std::exp(x);
+}
+GIMDEM_HD inline double logarithm(double x)
+{
+    return std::log(x);
+}
+template <class Condition, class Real>
+Real choose(Condition const& condition, Eigen::ArrayBase<Real> const& yes, Eigen::ArrayBase<Real> const& no)
 {
     return condition.select(yes, no);
 }
-inline Lanes root(Lanes const& x)
+template <class Real>
+Real root(Eigen::ArrayBase<Real> const& x)
 {
     return x.sqrt();
+}
+template <class Real>
+Real exponential(Eigen::ArrayBase<Real> const& x)
+{
+    return x.exp();
+}
+template <class Real>
+Real logarithm(Eigen::ArrayBase<Real> const& x)
+{
+    return x.log();
 }
 
 // g++ 12 takes the deliberately undefined operand of its own AVX-512 intrinsics for a mistake of ours.

@@ -33,7 +33,7 @@ struct FluidView
     }
 };
 
-/// Load of each particle, theory.md (D.15)-(D.18).
+/// Load of the particles of one octet, theory.md (D.15)-(D.18).
 struct LoadKernel
 {
     ParticleView particles;
@@ -46,30 +46,50 @@ struct LoadKernel
     FluidLoad* loads;
     std::uint8_t* was_clipped;
 
-    GIMDEM_HD void operator()(std::int64_t p) const
+    static std::int64_t octets(std::int64_t particle_count) { return (particle_count + exec::octet - 1) / exec::octet; }
+
+    void operator()(std::int64_t o) const
     {
-        std::int32_t const c = cell_of[p];
-        Quad const x = particles.position[p];
-        FluidLoad load{{0, 0, 0, 0}, {0, 0, 0, 0}};
-        if (pressure_gradient) load.steady = Quad::of(-sphere_volume(x.w) * fluid.pressure_gradient[c].xyz(), 0);
-        was_clipped[p] = 0;
-        if (drag)
+        std::int64_t const first = o * exec::octet;
+        std::int64_t const left = particles.count - first;
+        int const count = left < exec::octet ? static_cast<int>(left) : exec::octet;
+        exec::Octet e = exec::Octet::Ones(), slip = exec::Octet::Zero(), diameter = exec::Octet::Ones();
+        for (int k = 0; k < count; ++k)
         {
-            Vec3 const dx = x.xyz() - cell[c].xyz();
-            double const linear = void_fraction[c] + fluid.void_gradient[c].xyz().dot(dx);  // Eq. 25
-            double const e = linear < void_fraction_minimum ? void_fraction_minimum : (linear > 1 ? 1.0 : linear);
-            was_clipped[p] = e != linear;
-            Vec3 const v_f = fluid.velocity_at(c, dx);
-            load.fluid_velocity = Quad::of(v_f, coefficient(e, (v_f - particles.velocity[p].xyz()).norm(), 2 * x.w));
+            std::int64_t const p = first + k;
+            Quad const x = particles.position[p];
+            loads[p] = {{0, 0, 0, 0}, {0, 0, 0, 0}};
+            was_clipped[p] = 0;
+            if (pressure_gradient)
+                loads[p].steady = Quad::of(-sphere_volume(x.w) * fluid.pressure_gradient[cell_of[p]].xyz(), 0);
+            if (!drag) continue;
+            e[k] = void_fraction_at(p);
+            loads[p].fluid_velocity = Quad::of(fluid.velocity_at(cell_of[p], x.xyz() - cell[cell_of[p]].xyz()), 0);
+            slip[k] = (loads[p].fluid_velocity.xyz() - particles.velocity[p].xyz()).norm();
+            diameter[k] = 2 * x.w;
         }
-        loads[p] = load;
+        if (!drag) return;
+        exec::Octet const coefficients = coefficient(e, slip, diameter);
+        for (int k = 0; k < count; ++k)
+            loads[first + k].fluid_velocity.w = coefficients[k];
     }
 
 private:
-    /// k [kg/s] of F_d = k (v_f - v_p), (D.16), at a slip [m/s] and a diameter [m].
-    GIMDEM_HD double coefficient(double e, double slip, double diameter) const
+    /// Eq. 25, clipped into [minimum, 1].
+    double void_fraction_at(std::int64_t p) const
     {
-        double const reynolds = e * fluid.density * slip * diameter / fluid.viscosity;
+        std::int32_t const c = cell_of[p];
+        Vec3 const dx = particles.position[p].xyz() - cell[c].xyz();
+        double const linear = void_fraction[c] + fluid.void_gradient[c].xyz().dot(dx);
+        double const e = linear < void_fraction_minimum ? void_fraction_minimum : (linear > 1 ? 1.0 : linear);
+        was_clipped[p] = e != linear;
+        return e;
+    }
+
+    /// k [kg/s] of F_d = k (v_f - v_p), (D.16), at a slip [m/s] and a diameter [m].
+    exec::Octet coefficient(exec::Octet const& e, exec::Octet const& slip, exec::Octet const& diameter) const
+    {
+        exec::Octet const reynolds = e * fluid.density * slip * diameter / fluid.viscosity;
         return 3 * pi * fluid.viscosity * diameter * e * beetstra_factor(e, reynolds);
     }
 };
@@ -113,7 +133,7 @@ void FluidForces::apply(ParticleState& particles, PolyMesh const& mesh, exec::Bu
                           fluid_.density,
                           fluid_.viscosity};
     std::uint8_t* const was_clipped = was_clipped_.view().data;
-    exec::for_each(execution_, n,
+    exec::for_each(execution_, LoadKernel::octets(n),
                    LoadKernel{particles.view(), cell_of.view().data, mesh.view().cell, void_fraction.view().data, fluid,
                               void_fraction_minimum_, settings_.drag != "none", settings_.pressure_gradient,
                               loads.view().data, was_clipped});

@@ -157,8 +157,8 @@ void GaussianTables::add_table(double radius, double volume)
 
 GaussianTableView GaussianTables::view() const
 {
-    return {radii_.view().data, pairs_.view().data, coefficients_.view().data,
-            static_cast<std::int32_t>(radii_.size()), static_cast<std::int32_t>(volumes_.size())};
+    return {radii_.view().data, pairs_.view().data, coefficients_.view().data, static_cast<std::int32_t>(radii_.size()),
+            static_cast<std::int32_t>(volumes_.size())};
 }
 
 }  // namespace gimdem

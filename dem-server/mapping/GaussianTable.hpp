@@ -20,8 +20,8 @@ namespace gimdem
 /// in intervals of the table.
 struct TabulatedPair
 {
-    double scale;         ///< [1/m^2]
-    double offset;        ///< [1]
+    double scale;        ///< [1/m^2]
+    double offset;       ///< [1]
     std::int64_t table;  ///< place of its first coefficient
 };
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "exec/VectorMath.hpp"
 #include "exec/Vector.hpp"
+#include "exec/VectorMath.hpp"
 #include "mapping/GaussianIntegral.hpp"
 #include "mapping/GaussianTable.hpp"
 
@@ -207,7 +207,8 @@ struct WeightKernel
         for (int k = 0; k < length; k += CandidateCentres::most)
         {
             int const left = length - k;
-            CandidateCentres const at(cell, candidates + k, left < CandidateCentres::most ? left : CandidateCentres::most);
+            CandidateCentres const at(cell, candidates + k,
+                                      left < CandidateCentres::most ? left : CandidateCentres::most);
             Integrals integrals(source, at);
             for (int m = 0; m < particle_count; ++m)
                 integrals(position[particles[m]], first + m * length + k);

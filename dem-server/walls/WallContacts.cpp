@@ -84,37 +84,73 @@ struct NearbyPlanes
     }
 };
 
-/// Lists the planes near a particle; counts only where `plane` is null.
+/// Finds the planes near a particle: first counts them, then, with `plane` set, lists them.
 struct PairLister
 {
     NearbyPlanes nearby;
     Quad const* position;
     double skin;
     std::int32_t* offsets;  ///< counts while counting
+    std::uint64_t* seen;    ///< of each particle: two bits for each of its first runs, near and whole
     std::int32_t* plane;
     std::uint8_t* whole;
 
+    static constexpr int most_runs = 32;
+
     GIMDEM_HD void operator()(std::int64_t i) const
     {
-        Vec3 const x = position[i].xyz();
-        double const reach = position[i].w + skin;
-        std::int32_t k = plane == nullptr ? 0 : offsets[i];
-        nearby(x,
+        if (plane == nullptr)
+            count(i);
+        else if (offsets[i] != offsets[i + 1])
+            list(i);
+    }
+
+private:
+    static constexpr std::uint64_t is_near = 1, is_whole = 2;
+
+    GIMDEM_HD void count(std::int64_t i) const
+    {
+        Quad const x = position[i];
+        std::uint64_t bits = 0;
+        std::int32_t found = 0;
+        int r = 0;
+        nearby(x.xyz(),
                [&](PlaneRun const& run)
                {
-                   Quad const p = nearby.walls.plane_normal[run.plane];
-                   double const height = p.xyz().dot(x) - p.w;
-                   if (height > reach || height < -reach) return;
-                   PlanePoint const at = nearby.closest(run, x);
-                   if (at.distance > reach) return;
-                   if (plane != nullptr)
-                   {
-                       plane[k] = run.plane;
-                       whole[k] = at.interior && nearby.distance_to_rim(run, at.point) > 2 * skin;
-                   }
-                   ++k;
+                   std::uint64_t const here = look(run, x);
+                   found += (here & is_near) != 0;
+                   if (r < most_runs) bits |= here << (2 * r);
+                   ++r;
                });
-        if (plane == nullptr) offsets[i] = k;
+        seen[i] = bits;
+        offsets[i] = found;
+    }
+
+    GIMDEM_HD void list(std::int64_t i) const
+    {
+        Quad const x = position[i];
+        std::int32_t k = offsets[i];
+        int r = 0;
+        nearby(x.xyz(),
+               [&](PlaneRun const& run)
+               {
+                   std::uint64_t const here = r < most_runs ? seen[i] >> (2 * r) : look(run, x);
+                   ++r;
+                   if ((here & is_near) == 0) return;
+                   plane[k] = run.plane;
+                   whole[k++] = (here & is_whole) != 0;
+               });
+    }
+
+    GIMDEM_HD std::uint64_t look(PlaneRun const& run, Quad const& x) const
+    {
+        double const reach = x.w + skin;
+        Quad const p = nearby.walls.plane_normal[run.plane];
+        double const height = p.xyz().dot(x.xyz()) - p.w;
+        if (height > reach || height < -reach) return 0;
+        PlanePoint const at = nearby.closest(run, x.xyz());
+        if (at.distance > reach) return 0;
+        return is_near | (at.interior && nearby.distance_to_rim(run, at.point) > 2 * skin ? is_whole : 0);
     }
 };
 
@@ -279,8 +315,10 @@ void WallContacts::build(ParticleState const& particles, double skin, std::span<
     swap(old_.displacement, pairs_.displacement);
 
     pairs_.offsets.resize(n + 1);
-    PairLister lister{{walls_.view()}, particles.position.view().data, skin, pairs_.offsets.view().data, nullptr,
-                      nullptr};
+    seen_.resize(n);
+    PairLister lister{
+        {walls_.view()}, particles.position.view().data, skin, pairs_.offsets.view().data, seen_.view().data, nullptr,
+        nullptr};
     exec::for_each(execution_, n, lister);
     for (std::int64_t i = 0; i < n; ++i)
         if (pairs_.offsets[i] > most_planes)

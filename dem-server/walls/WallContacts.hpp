@@ -57,6 +57,7 @@ private:
     std::int32_t wall_material_;
     WallGeometry const& walls_;
     WallPairs pairs_, old_;
+    exec::Buffer<std::uint64_t> seen_;  ///< what the first look at the walls found, for the second
     exec::Buffer<Quad> wall_force_;
 };
 

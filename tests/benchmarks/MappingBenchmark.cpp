@@ -49,13 +49,23 @@ void time_per_particle(benchmark::State& state, double largest, Work work)
     GridB grid(largest);
     for (auto _ : state)
         work(grid);
-    state.counters["us_per_particle"] = benchmark::Counter(
-        1e-6 * double(grid.particles.count()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["us_per_particle"] =
+        benchmark::Counter(1e-6 * double(grid.particles.count()),
+                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-void locate(GridB& grid) { grid.mapper.locate(grid.particles, grid.wall_faces); }
-void weights(GridB& grid) { grid.mapper.compute_weights(grid.particles); }
-void sums(GridB& grid) { grid.mapper.sum_into_cells(grid.particles, grid.impulses, grid.sums); }
+void locate(GridB& grid)
+{
+    grid.mapper.locate(grid.particles, grid.wall_faces);
+}
+void weights(GridB& grid)
+{
+    grid.mapper.compute_weights(grid.particles);
+}
+void sums(GridB& grid)
+{
+    grid.mapper.sum_into_cells(grid.particles, grid.impulses, grid.sums);
+}
 
 }  // namespace
 
