@@ -17,7 +17,7 @@ namespace gimdem
 /// What one pair of the list does: one line of the cache.
 struct alignas(64) PairForce
 {
-    Quad force;   ///< on the first particle [N]; w: 1 where the pair touches, else 0 and the rest means nothing
+    Quad force;   ///< on the first particle [N]; of a pair that does not touch it means nothing
     Quad torque;  ///< normal x tangential force [N], w: overlap [m]
 };
 

@@ -28,6 +28,32 @@ struct alignas(32) Quad
     GIMDEM_HD static Quad of(Vec3 const& v, double w) { return {v.x(), v.y(), v.z(), w}; }
 };
 
+/// Three components of any kind of number: of one vector (Real = double) or of eight (Real = exec::Octet). What laws
+/// are written with that serve both.
+template <class Real>
+struct Vector3
+{
+    Real x, y, z;
+
+    GIMDEM_HD friend Vector3 operator+(Vector3 const& a, Vector3 const& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    GIMDEM_HD friend Vector3 operator-(Vector3 const& a, Vector3 const& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    GIMDEM_HD friend Vector3 operator*(Real const& f, Vector3 const& a) { return {f * a.x, f * a.y, f * a.z}; }
+    GIMDEM_HD Real dot(Vector3 const& b) const { return x * b.x + y * b.y + z * b.z; }
+    GIMDEM_HD Vector3 cross(Vector3 const& b) const
+    {
+        return {y * b.z - z * b.y, z * b.x - x * b.z, x * b.y - y * b.x};
+    }
+};
+
+GIMDEM_HD inline Vector3<double> vector3(Vec3 const& v)
+{
+    return {v.x(), v.y(), v.z()};
+}
+GIMDEM_HD inline Vec3 vec3(Vector3<double> const& t)
+{
+    return {t.x, t.y, t.z};
+}
+
 /// Three numbers, trivially copyable: how kernels hold constants such as gravity.
 struct Constant3
 {

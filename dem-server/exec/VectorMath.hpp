@@ -8,8 +8,10 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <iterator>
+#include <type_traits>
 
 #include "exec/HostDevice.hpp"
+#include "exec/Octet.hpp"
 
 namespace gimdem::exec
 {
@@ -29,21 +31,31 @@ inline constexpr double erfcx_coefficients[] = {
 inline constexpr int vector_width = 32;
 using Lanes = Eigen::Array<double, vector_width, 1>;
 
-/// As many as one register of the widest kind holds.
-inline constexpr int octet = 8;
-using Octet = Eigen::Array<double, octet, 1>;
-
-/// values[place[i]] for each lane.
-inline Octet gather(double const* values, Eigen::Array<std::int32_t, octet, 1> const& place)
-{
-    return Octet{{values[place[0]], values[place[1]], values[place[2]], values[place[3]], values[place[4]],
-                  values[place[5]], values[place[6]], values[place[7]]}};
-}
-
 // The few operations that a law needs to be written once for a number and for many (an Eigen array).
 GIMDEM_HD inline double choose(bool condition, double yes, double no)
 {
     return condition ? yes : no;
+}
+GIMDEM_HD inline double magnitude(double x)
+{
+    return std::fabs(x);
+}
+/// The same number in every lane.
+template <class Real>
+GIMDEM_HD Real broadcast(double x)
+{
+    if constexpr (std::is_floating_point_v<Real>)
+        return x;
+    else
+        return Real::Constant(x);
+}
+GIMDEM_HD inline bool greater(double a, double b)
+{
+    return a > b;
+}
+GIMDEM_HD inline bool any(bool condition)
+{
+    return condition;
 }
 GIMDEM_HD inline double root(double x)
 {
@@ -61,6 +73,11 @@ template <class Condition, class Real>
 Real choose(Condition const& condition, Eigen::ArrayBase<Real> const& yes, Eigen::ArrayBase<Real> const& no)
 {
     return condition.select(yes, no);
+}
+template <class Real>
+Real magnitude(Eigen::ArrayBase<Real> const& x)
+{
+    return x.abs();
 }
 template <class Real>
 Real root(Eigen::ArrayBase<Real> const& x)

@@ -25,13 +25,13 @@ requires(!std::is_integral_v<Real>) GIMDEM_HD Real beetstra_factor(Real const& v
     Real const creeping = 10 * s / (e * e) + e * e * (1 + 1.5 * exec::root(s));
 
     // Re A / (1 + B Re^-q) = Re^(1 + q) A / (Re^q + B): no negative power of Re is left over.
-    auto const flows = reynolds > 0;
-    Real const log_re = exec::logarithm(exec::choose(flows, reynolds, Real(0 * s + 1)));
+    auto const flows = exec::greater(reynolds, exec::broadcast<Real>(0));
+    Real const log_re = exec::logarithm(exec::choose(flows, reynolds, exec::broadcast<Real>(1)));
     Real const re_q = exec::exponential(Real((1 + 4 * s) / 2 * log_re));
     Real const numerator = (1 / e + 3 * s * e) * reynolds + 8.4 * exec::exponential(Real(0.657 * log_re));
     Real const damping = exec::exponential(Real(3 * 2.30258509299404568402 * s));
     Real const inertial = 0.413 / (24 * e * e) * numerator * re_q / (re_q + damping);
-    return creeping + exec::choose(flows, inertial, Real(0 * s));
+    return creeping + exec::choose(flows, inertial, exec::broadcast<Real>(0));
 }
 
 GIMDEM_HD inline double beetstra_factor(double void_fraction, double reynolds)

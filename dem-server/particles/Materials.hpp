@@ -12,19 +12,22 @@
 namespace gimdem
 {
 
-/// Constants of a pair of materials in contact, theory.md (D.3), (D.4), (D.8).
-struct ContactConstants
+/// Constants of a pair of materials in contact, theory.md (D.3), (D.4), (D.8). Real is double, or exec::Octet for eight
+/// contacts of different materials.
+template <class Real>
+struct ContactConstantsOf
 {
-    double young_eff;      ///< E*, (D.3) [Pa]
-    double shear_eff;      ///< G*, (D.4) [Pa]
-    double damping_ratio;  ///< beta <= 0, (D.8) [1]
-    double friction;       ///< Coulomb coefficient [1]
+    Real young_eff;      ///< E*, (D.3) [Pa]
+    Real shear_eff;      ///< G*, (D.4) [Pa]
+    Real damping_ratio;  ///< beta <= 0, (D.8) [1]
+    Real friction;       ///< Coulomb coefficient [1]
 
     // What the law needs of the four above, so that no contact computes it again.
-    double damping;               ///< -2 sqrt(5/6) beta >= 0 [1]
-    double stiffness_ratio;       ///< S_t / S_n = 4 G* / E* [1]
-    double root_stiffness_ratio;  ///< its square root [1]
+    Real damping;               ///< -2 sqrt(5/6) beta >= 0 [1]
+    Real stiffness_ratio;       ///< S_t / S_n = 4 G* / E* [1]
+    Real root_stiffness_ratio;  ///< its square root [1]
 };
+using ContactConstants = ContactConstantsOf<double>;
 
 /// (D.3), (D.4), (D.8) for two materials and their contact. A wall is a material like any other.
 ContactConstants contact_constants(MaterialSettings const& a, MaterialSettings const& b,

@@ -196,6 +196,8 @@ void NeighborSearch::list_pairs(ParticleState const& particles, NeighborList& li
     list.first.resize(pairs);
     list.second.resize(pairs);
     list.displacement.resize(pairs);
+    list.touches.resize(pairs);
+    list.touches.fill(1);
     exec::for_each(
         execution_, n,
         PairFiller{visit, near, list.row_offsets.view().data, list.first.view().data, list.second.view().data});

@@ -22,6 +22,7 @@ struct NeighborList
     exec::Buffer<std::int32_t> row_offsets;  ///< shape=(n_particles + 1,): pairs of i are [row_offsets i, i + 1)
     exec::Groups pairs_by_second;            ///< pairs in which a particle is second
     exec::Buffer<Quad> displacement;         ///< shape=(n_pairs,), tangential spring of the pair [m]
+    exec::Buffer<std::uint8_t> touches;      ///< shape=(n_pairs,), 1 where the pair touched when it was last looked at
     exec::Buffer<Quad> built_at;             ///< shape=(n_particles,), positions when the list was built [m]
 
     std::int64_t pair_count() const { return first.size(); }

@@ -289,18 +289,18 @@ private:
         Quad const v = particles.velocity[i];
         double const radius = particles.position[i].w;
         double const lever = radius - touch.overlap / 2;
-        ContactGeometry const contact{
-            .normal = touch.normal,
+        ContactGeometry<double> const contact{
+            .normal = vector3(touch.normal),
             .overlap = touch.overlap,
-            .velocity = v.xyz() - lever * particles.angular_velocity[i].xyz().cross(touch.normal),
+            .velocity = vector3(v.xyz() - lever * particles.angular_velocity[i].xyz().cross(touch.normal)),
             .radius_eff = radius,
             .mass_eff = 1 / v.w};
-        HertzMindlin const law{constants[particles.material[i]], dt};
-        Vec3 spring = displacement[touch.pair].xyz();
-        ContactForce const result = law(contact, spring);
-        displacement[touch.pair] = Quad::of(spring, 0);
-        force += result.force;
-        torque -= lever * touch.normal.cross(result.tangential);
+        HertzMindlin<double> const law{constants[particles.material[i]], dt};
+        Vector3<double> spring = vector3(displacement[touch.pair].xyz());
+        ContactForce<double> const result = law(contact, spring);
+        displacement[touch.pair] = {spring.x, spring.y, spring.z, 0};
+        force += vec3(result.force);
+        torque -= lever * touch.normal.cross(vec3(result.tangential));
     }
 };
 

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Time of a DEM step of a bed of 1.545 mm beads in the box of cases/wachem-bed, no fluid.
+///
+///   benchmark_dem [--data FILE] [--steps N] [--warm-up N] [--threads N] [--dt S] [--skin K]
+///
+/// FILE: particles in the format of LAMMPS (id type diameter density x y z, then Velocities), so that other programs can
+/// start from the same state; without it, a lattice that falls. Prints figures.
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+#include <sstream>
+
+#include "BoxMesh.hpp"
+#include "TestCase.hpp"
+#include "engine/DemSystem.hpp"
+
+namespace
+{
+
+using namespace gimdem;
+
+struct Options
+{
+    std::string data;
+    int steps = 1000, warm_up = 500, threads = 1;
+    double dt = 2e-5, skin = 0.3;
+    std::vector<double> box{0.09, 0.008, 0.5};
+};
+
+std::vector<test::Sphere> lattice()
+{
+    std::vector<test::Sphere> spheres;
+    for (int k = 0; spheres.size() < 17'563; ++k)
+        for (int j = 0; j < 4; ++j)
+            for (int i = 0; i < 54; ++i)
+                if (spheres.size() < 17'563)
+                    spheres.push_back({Vec3(1e-3 + 1.65e-3 * i + 1e-5 * (k % 3), 1.2e-3 + 1.7e-3 * j, 1e-3 + 1.65e-3 * k),
+                                       0.7725e-3});
+    return spheres;
+}
+
+/// Sections "Atoms" and "Velocities" of a data file; throws for anything that cannot be read.
+std::vector<test::Sphere> read_data(std::string const& path)
+{
+    std::ifstream file(path);
+    if (!file) throw std::runtime_error("cannot read " + path);
+    std::vector<test::Sphere> spheres;
+    std::string line, section;
+    while (std::getline(file, line))
+    {
+        std::istringstream words(line);
+        std::string first;
+        if (!(words >> first)) continue;
+        if (first == "Atoms" || first == "Velocities")
+        {
+            section = first;
+            continue;
+        }
+        if (section.empty()) continue;
+        auto const id = std::stoul(first);
+        if (spheres.size() < id) spheres.resize(id);
+        test::Sphere& s = spheres[id - 1];
+        double type, diameter, density;
+        if (section == "Atoms")
+        {
+            words >> type >> diameter >> density >> s.position[0] >> s.position[1] >> s.position[2];
+            s.radius = diameter / 2;
+        }
+        else
+            for (Vec3* v : {&s.velocity, &s.angular_velocity})
+                words >> (*v)[0] >> (*v)[1] >> (*v)[2];
+        if (!words) throw std::runtime_error(path + ": cannot read \"" + line + "\"");
+    }
+    return spheres;
+}
+
+double kinetic_energy(ParticleState const& p)
+{
+    double sum = 0;
+    for (std::int64_t i = 0; i < p.count(); ++i)
+        sum += p.mass(i) * p.velocity[i].xyz().squaredNorm() / 2;
+    return sum;
+}
+
+void run(Options const& options)
+{
+    Case settings = test::bead_case(0.9, 0.3);
+    settings.dem.gravity = {0, 0, -9.81};
+    settings.dem.skin = options.skin;
+    exec::Execution const execution = exec::make_execution(options.threads == 1 ? "serial" : "openmp", options.threads);
+    Materials const materials(settings);
+    PolyMesh const mesh(test::BoxMesh::make({1, 1, 1}, {options.box[0], options.box[1], options.box[2]}));
+    WallGeometry const walls(mesh, {"bottom"}, 0.9e-3);
+    auto const spheres = options.data.empty() ? lattice() : read_data(options.data);
+    DemSystem system(settings, execution, materials, walls, test::particles_of(spheres));
+    system.prepare();
+    system.begin_coupling_step(nullptr);
+    for (int s = 0; s < options.warm_up; ++s)
+        system.step(options.dt);
+
+    std::int64_t const rebuilds = system.rebuilds();
+    auto const start = std::chrono::steady_clock::now();
+    for (int s = 0; s < options.steps; ++s)
+        system.step(options.dt);
+    double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    auto const n = static_cast<double>(system.particles().count());
+    fmt::print("figure: dem_particles = {} [1]\n", n);
+    fmt::print("figure: dem_threads = {} [1]\n", options.threads);
+    fmt::print("figure: dem_ms_per_step = {:.4g} [ms]\n", 1e3 * seconds / options.steps);
+    fmt::print("figure: dem_particle_steps_per_second = {:.4g} [1/s]\n", n * options.steps / seconds);
+    fmt::print("figure: dem_list_rebuilds = {} [1]\n", system.rebuilds() - rebuilds);
+    fmt::print("figure: dem_pairs_per_particle = {:.4g} [1]\n", double(system.neighbors().pair_count()) / n);
+    fmt::print("figure: dem_kinetic_energy = {:.6g} [J]\n", kinetic_energy(system.particles()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    Options options;
+    CLI::App app("Time of a DEM step");
+    app.add_option("--data", options.data, "initial state");
+    app.add_option("--steps", options.steps, "timed steps");
+    app.add_option("--warm-up", options.warm_up, "steps before");
+    app.add_option("--threads", options.threads, "threads");
+    app.add_option("--dt", options.dt, "time step [s]");
+    app.add_option("--skin", options.skin, "of the neighbour list, in radii");
+    app.add_option("--box", options.box, "sides of the box [m]")->expected(3);
+    CLI11_PARSE(app, argc, argv);
+    try
+    {
+        run(options);
+    }
+    catch (std::exception const& error)
+    {
+        fmt::print(stderr, "benchmark_dem: error: {}\n", error.what());
+        return 1;
+    }
+}
