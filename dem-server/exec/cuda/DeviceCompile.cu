@@ -35,12 +35,13 @@ struct AllLaws
         Vec3 const x = position[i].xyz();
         Location const at = CellWalker{mesh}(0, x);
         Vec3 spring = displacement[i].xyz();
-        HertzMindlin const law{constants, 1e-6};
-        ContactForce const contact = law({Vec3(0, 0, 1), 1e-6, x, 1e-3, 1e-6}, spring);
-        displacement[i] = Quad::of(spring, 0);
+        HertzMindlin<double> const law{constants, 1e-6};
+        Vector3<double> elongation = vector3(spring);
+        ContactForce<double> const contact = law({{0, 0, 1}, 1e-6, vector3(x), 1e-3, 1e-6}, elongation);
+        displacement[i] = Quad::of(vec3(elongation), 0);
         GaussianIntegral const integral{position[i].w, 1.0, tuned_coefficient(1.0)};
-        out[i] = integral(x.norm()) + beetstra_factor(0.5, at.outside) + contact.force.norm() +
-                 closest_on_triangle(x, spring, contact.tangential, x).point.norm();
+        out[i] = integral(x.norm()) + beetstra_factor(0.5, at.outside) + contact.force.x +
+                 closest_on_triangle(x, spring, vec3(contact.tangential), x).point.norm();
     }
 };
 
@@ -49,7 +50,7 @@ struct AllLaws
 /// Keeps the instantiations.
 void compile_for_device()
 {
-    launch<HalfKick><<<1, 1>>>(0, HalfKick{});
+    launch<HalfKick<true>><<<1, 1>>>(0, HalfKick<true>{});
     launch<Drift><<<1, 1>>>(0, Drift{});
     launch<AllLaws><<<1, 1>>>(0, AllLaws{});
 }
