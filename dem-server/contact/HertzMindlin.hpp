@@ -40,13 +40,10 @@ struct HertzMindlin
         Real const limit = constants.friction * magnitude(normal_force);
         Real const spring2 = tangential_stiffness * tangential_stiffness * displacement.dot(displacement);
         auto const slides = greater(spring2, Real(limit * limit));
-        Real dashpot = tangential_dashpot;
-        if (any(slides))
-        {
-            Real const shortened = limit / root(spring2);
-            displacement = choose(slides, shortened, broadcast<Real>(1)) * displacement;
-            dashpot = choose(slides, broadcast<Real>(0), tangential_dashpot);
-        }
+        // Computed for all lanes: a branch that some lane of eight takes is taken too often to be foreseen.
+        Real const shortened = limit / root(Real(spring2 + tiny));
+        displacement = choose(slides, shortened, broadcast<Real>(1)) * displacement;
+        Real const dashpot = choose(slides, broadcast<Real>(0), tangential_dashpot);
         Vector3<Real> const tangential = Real(-tangential_stiffness) * displacement - dashpot * v_t;
         return {normal_force * contact.normal + tangential, tangential};
     }

@@ -15,6 +15,7 @@
 #include "BoxMesh.hpp"
 #include "TestCase.hpp"
 #include "engine/DemSystem.hpp"
+#include "particles/Insertion.hpp"
 
 namespace
 {
@@ -29,17 +30,17 @@ struct Options
     std::vector<double> box{0.09, 0.008, 0.5};
 };
 
-std::vector<test::Sphere> lattice()
+/// The lattice of cases/wachem-bed: what falls becomes an irregular bed.
+InsertionSettings lattice(std::vector<double> const& box)
 {
-    std::vector<test::Sphere> spheres;
-    for (int k = 0; spheres.size() < 17'563; ++k)
-        for (int j = 0; j < 4; ++j)
-            for (int i = 0; i < 54; ++i)
-                if (spheres.size() < 17'563)
-                    spheres.push_back(
-                        {Vec3(1e-3 + 1.65e-3 * i + 1e-5 * (k % 3), 1.2e-3 + 1.7e-3 * j, 1e-3 + 1.65e-3 * k),
-                         0.7725e-3});
-    return spheres;
+    InsertionSettings lattice;
+    lattice.material = "bead";
+    lattice.diameter = 1.545e-3;
+    lattice.count = 17'563;
+    lattice.box = {{{0, 0, 0}, {box[0], box[1], box[2]}}};
+    lattice.spacing = 1.65e-3;
+    lattice.jitter = 2e-5;
+    return lattice;
 }
 
 /// Sections "Atoms" and "Velocities" of a data file; throws for anything that cannot be read.
@@ -121,8 +122,10 @@ void run(Options const& options)
     Materials const materials(settings);
     PolyMesh const mesh(test::BoxMesh::make({1, 1, 1}, {options.box[0], options.box[1], options.box[2]}));
     WallGeometry const walls(mesh, {"bottom"}, 0.9e-3);
-    auto const spheres = options.data.empty() ? lattice() : read_data(options.data);
-    DemSystem system(settings, execution, materials, walls, test::particles_of(spheres));
+    settings.insertion = {lattice(options.box)};
+    DemSystem system(
+        settings, execution, materials, walls,
+        options.data.empty() ? insert_particles(settings, materials) : test::particles_of(read_data(options.data)));
     system.prepare();
     system.begin_coupling_step(nullptr);
     for (int s = 0; s < options.warm_up; ++s)
