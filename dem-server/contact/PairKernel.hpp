@@ -160,16 +160,19 @@ private:
 
         Vector3<Octet> const turn = result.tangential.cross(contact.normal);
         Vector3<Octet> const turn_a = Octet(a.radius - contact.overlap / 2) * turn;
-        Vector3<Octet> const turn_b = Octet(b.radius - contact.overlap / 2) * turn;
         Quad force[exec::octet], torque_a[exec::octet], torque_b[exec::octet];
         exec::store({result.force.x, result.force.y, result.force.z, Octet::Zero()}, force);
         exec::store({turn_a.x, turn_a.y, turn_a.z, Octet::Zero()}, torque_a);
-        exec::store({turn_b.x, turn_b.y, turn_b.z, Octet::Zero()}, torque_b);
+        if constexpr (!one_size)
+        {
+            Vector3<Octet> const turn_b = Octet(b.radius - contact.overlap / 2) * turn;
+            exec::store({turn_b.x, turn_b.y, turn_b.z, Octet::Zero()}, torque_b);
+        }
         for (int n = 0; n < count; ++n)
         {
             particles.force[i[n]] = particles.force[i[n]] + force[n];
             particles.torque[i[n]] = particles.torque[i[n]] + torque_a[n];
-            give(list.border_slot[pair[n]], j[n], force[n], torque_b[n]);
+            give(list.border_slot[pair[n]], j[n], force[n], one_size ? torque_a[n] : torque_b[n]);
         }
     }
 
@@ -206,23 +209,21 @@ private:
         Vector3<Octet> normal = per_distance * between;
         normal.z = exec::choose(apart, normal.z, one);
         Octet const overlap = reach - distance;
-        Vector3<Octet> const spin = Octet(a.radius - overlap / 2) * a.spin + Octet(b.radius - overlap / 2) * b.spin;
-        ContactGeometry<Octet> contact{.normal = normal,
-                                       .overlap = overlap,
-                                       .velocity = a.velocity - b.velocity - spin.cross(normal),
-                                       .radius_eff = {},
-                                       .mass_eff = {}};
         if constexpr (one_size)
         {
-            contact.radius_eff = Octet::Constant(a.radius[0] / 2);
-            contact.mass_eff = Octet::Constant(0.5 / a.inverse_mass[0]);
+            Vector3<Octet> const spin = Octet(a.radius - overlap / 2) * (a.spin + b.spin);
+            return {.normal = normal,
+                    .overlap = overlap,
+                    .velocity = a.velocity - b.velocity - spin.cross(normal),
+                    .radius_eff = Octet::Constant(a.radius[0] / 2),
+                    .mass_eff = Octet::Constant(0.5 / a.inverse_mass[0])};
         }
-        else
-        {
-            contact.radius_eff = a.radius * b.radius / reach;
-            contact.mass_eff = 1 / (a.inverse_mass + b.inverse_mass);
-        }
-        return contact;
+        Vector3<Octet> const spin = Octet(a.radius - overlap / 2) * a.spin + Octet(b.radius - overlap / 2) * b.spin;
+        return {.normal = normal,
+                .overlap = overlap,
+                .velocity = a.velocity - b.velocity - spin.cross(normal),
+                .radius_eff = a.radius * b.radius / reach,
+                .mass_eff = 1 / (a.inverse_mass + b.inverse_mass)};
     }
 };
 
