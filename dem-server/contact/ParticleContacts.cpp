@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contact/ParticleContacts.hpp"
 
-#include "contact/HertzMindlin.hpp"
 #include "exec/ForEach.hpp"
 #include "exec/Octet.hpp"
 
@@ -19,7 +18,7 @@ constexpr int block = 256;  ///< pairs
 struct OctetOfParticles
 {
     Vector3<Octet> position, velocity, spin;
-    Octet radius, inverse_mass;
+    Octet radius, inverse_mass, inverse_inertia;
 
     OctetOfParticles(ParticleView const& particles, std::int32_t const* which)
     {
@@ -31,41 +30,27 @@ struct OctetOfParticles
         spin = {w.x, w.y, w.z};
         radius = x.w;
         inverse_mass = v.w;
+        inverse_inertia = w.w;
     }
 };
 
-/// Constants of eight contacts of whatever materials.
-ContactConstantsOf<Octet> constants_of(ContactConstants const* table, std::int32_t material_count,
-                                       std::int32_t const* material, std::int32_t const* i, std::int32_t const* j)
-{
-    ContactConstantsOf<Octet> out;
-    for (int n = 0; n < exec::octet; ++n)
-    {
-        ContactConstants const& pair = table[material[i[n]] * material_count + material[j[n]]];
-        out.young_eff[n] = pair.young_eff;
-        out.friction[n] = pair.friction;
-        out.damping[n] = pair.damping;
-        out.stiffness_ratio[n] = pair.stiffness_ratio;
-        out.root_stiffness_ratio[n] = pair.root_stiffness_ratio;
-    }
-    return out;
-}
-
 /// Forces and torques of the pairs of one block of the list, and their springs one step on: first the pairs that touch
 /// are picked, then computed eight at a time.
-template <bool one_material>
+template <class Law, bool one_material>
 struct PairKernel
 {
     ParticleView particles;
     std::int32_t const* first;
     std::int32_t const* second;
     std::int64_t pair_count;
-    ContactConstants const* constants;
+    typename Law::template Constants<double> const* constants;
     std::int32_t material_count;
     double dt;
     std::uint8_t* touches;
     Quad* displacement;
+    Quad* rolling_spring;  ///< null where the law has none
     PairForce* forces;
+    Quad* rolling;  ///< null where nothing resists rolling
 
     void operator()(std::int64_t b) const
     {
@@ -89,7 +74,11 @@ private:
             double const dx = xi.x - xj.x, dy = xi.y - xj.y, dz = xi.z - xj.z;
             double const reach = xi.w + xj.w;
             bool const now = dx * dx + dy * dy + dz * dz < reach * reach;
-            if (touches[k] != 0 && !now) displacement[k] = {0, 0, 0, 0};
+            if (touches[k] != 0 && !now)
+            {
+                displacement[k] = {0, 0, 0, 0};
+                if constexpr (Law::has_rolling_spring) rolling_spring[k] = {0, 0, 0, 0};
+            }
             touches[k] = now;
             touching[count] = static_cast<std::int32_t>(k);
             count += now;
@@ -110,23 +99,39 @@ private:
         OctetOfParticles const a(particles, i), b(particles, j);
         ContactGeometry<Octet> const contact = meet(a, b);
         auto const old = exec::load(displacement, pairs);
-        Vector3<Octet> spring{old.x, old.y, old.z};
-        ContactForce<Octet> const result = apply_law(contact, i, j, spring);
+        ContactSprings<Octet> springs{{old.x, old.y, old.z}};
+        if constexpr (Law::has_rolling_spring)
+        {
+            auto const rolled = exec::load(rolling_spring, pairs);
+            springs.rolling = {rolled.x, rolled.y, rolled.z};
+        }
+        ContactForce<Octet> const result = apply_law(contact, i, j, springs);
         Vector3<Octet> const turn = contact.normal.cross(result.tangential);
 
-        exec::store({spring.x, spring.y, spring.z, Octet::Zero()}, displacement, pairs);
+        store(springs.tangential, displacement, pairs);
+        if constexpr (Law::has_rolling_spring) store(springs.rolling, rolling_spring, pairs);
+        if constexpr (Law::rolls) store(result.rolling, rolling, pairs);
         exec::store({result.force.x, result.force.y, result.force.z, Octet::Ones()}, &forces->force, pairs, 2);
         exec::store({turn.x, turn.y, turn.z, contact.overlap}, &forces->torque, pairs, 2);
     }
 
+    static void store(Vector3<Octet> const& from, Quad* values, std::int32_t const* place)
+    {
+        exec::store({from.x, from.y, from.z, Octet::Zero()}, values, place);
+    }
+
     ContactForce<Octet> apply_law(ContactGeometry<Octet> const& contact, std::int32_t const* i, std::int32_t const* j,
-                                  Vector3<Octet>& spring) const
+                                  ContactSprings<Octet>& springs) const
     {
         if constexpr (one_material)
-            return HertzMindlin<Octet>{constants[0], dt}(contact, spring);
+            return Law::template apply<Octet>(constants[0], dt, contact, springs);
         else
-            return HertzMindlin<Octet, ContactConstantsOf<Octet>>{
-                constants_of(constants, material_count, particles.material, i, j), dt}(contact, spring);
+        {
+            std::int32_t row[exec::octet];
+            for (int n = 0; n < exec::octet; ++n)
+                row[n] = particles.material[i[n]] * material_count + particles.material[j[n]];
+            return Law::template apply<Octet>(octet_of<Law>(constants, row), dt, contact, springs);
+        }
     }
 
     static ContactGeometry<Octet> meet(OctetOfParticles const& a, OctetOfParticles const& b)
@@ -142,15 +147,23 @@ private:
         normal.z = exec::choose(apart, normal.z, one);
         Octet const overlap = reach - distance;
         Vector3<Octet> const spin = Octet(a.radius - overlap / 2) * a.spin + Octet(b.radius - overlap / 2) * b.spin;
-        return {.normal = normal,
-                .overlap = overlap,
-                .velocity = a.velocity - b.velocity - spin.cross(normal),
-                .radius_eff = a.radius * b.radius / reach,
-                .mass_eff = 1 / (a.inverse_mass + b.inverse_mass)};
+        ContactGeometry<Octet> contact{.normal = normal,
+                                       .overlap = overlap,
+                                       .velocity = a.velocity - b.velocity - spin.cross(normal),
+                                       .radius_eff = a.radius * b.radius / reach,
+                                       .mass_eff = 1 / (a.inverse_mass + b.inverse_mass)};
+        if constexpr (Law::rolls)
+        {
+            contact.spin = a.spin - b.spin;
+            contact.inverse_inertia = a.inverse_inertia + b.inverse_inertia;
+        }
+        if constexpr (Law::coheres) contact.per_distance = per_distance;
+        return contact;
     }
 };
 
 /// Sum over the contacts of particle i: first those where it is first, then those where it is second.
+template <bool rolls>
 struct GatherKernel
 {
     ParticleView particles;
@@ -159,6 +172,7 @@ struct GatherKernel
     std::int32_t const* second_members;
     std::uint8_t const* touches;
     PairForce const* forces;
+    Quad const* rolling;
 
     GIMDEM_HD void operator()(std::int64_t i) const
     {
@@ -171,6 +185,7 @@ struct GatherKernel
             PairForce const& pair = forces[k];
             force += pair.force.xyz();
             torque -= (radius - pair.torque.w / 2) * pair.torque.xyz();
+            if constexpr (rolls) torque += rolling[k].xyz();
         }
         for (std::int32_t m = second_offsets[i]; m < second_offsets[i + 1]; ++m)
         {
@@ -178,6 +193,7 @@ struct GatherKernel
             PairForce const& pair = forces[second_members[m]];
             force -= pair.force.xyz();
             torque -= (radius - pair.torque.w / 2) * pair.torque.xyz();
+            if constexpr (rolls) torque -= rolling[second_members[m]].xyz();
         }
         particles.force[i] = Quad::of(force, 0);
         particles.torque[i] = Quad::of(torque, 0);
@@ -188,34 +204,40 @@ struct GatherKernel
 
 void ParticleContacts::sum_forces(ParticleState& particles, NeighborList& list, double dt)
 {
-    compute_pairs(particles, list, dt);
-    gather(particles, list);
+    model_.visit(
+        [&]<class Law>(LawTable<Law> const& table)
+        {
+            pair_forces_.resize(list.pair_count());
+            if constexpr (Law::rolls) rolling_.resize(list.pair_count());
+            if (material_count_ == 1)
+                compute_pairs<Law, true>(table, particles, list, dt);
+            else
+                compute_pairs<Law, false>(table, particles, list, dt);
+            gather<Law::rolls>(particles, list);
+        });
 }
 
-void ParticleContacts::compute_pairs(ParticleState& particles, NeighborList& list, double dt)
+template <class Law, bool one_material>
+void ParticleContacts::compute_pairs(LawTable<Law> const& table, ParticleState& particles, NeighborList& list,
+                                     double dt)
 {
-    pair_forces_.resize(list.pair_count());
     std::int64_t const blocks = (list.pair_count() + block - 1) / block;
-    auto const compute = [&]<bool one_material>()
-    {
-        exec::for_each(
-            execution_, blocks,
-            PairKernel<one_material>{particles.view(), list.first.view().data, list.second.view().data,
-                                     list.pair_count(), constants_.data, material_count_, dt, list.touches.view().data,
-                                     list.displacement.view().data, pair_forces_.view().data});
-    };
-    if (material_count_ == 1)
-        compute.operator()<true>();
-    else
-        compute.operator()<false>();
+    exec::for_each(execution_, blocks,
+                   PairKernel<Law, one_material>{
+                       particles.view(), list.first.view().data, list.second.view().data, list.pair_count(),
+                       table.constants.view().data, material_count_, dt, list.touches.view().data,
+                       list.displacement.view().data, list.rolling_spring.view().data, pair_forces_.view().data,
+                       rolling_.view().data});
 }
 
+template <bool rolls>
 void ParticleContacts::gather(ParticleState& particles, NeighborList const& list)
 {
     exec::for_each(
         execution_, particles.count(),
-        GatherKernel{particles.view(), list.row_offsets.view().data, list.pairs_by_second.offsets.view().data,
-                     list.pairs_by_second.members.view().data, list.touches.view().data, pair_forces_.view().data});
+        GatherKernel<rolls>{particles.view(), list.row_offsets.view().data, list.pairs_by_second.offsets.view().data,
+                            list.pairs_by_second.members.view().data, list.touches.view().data,
+                            pair_forces_.view().data, rolling_.view().data});
 }
 
 }  // namespace gimdem

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "contact/ContactModel.hpp"
 #include "exec/Buffer.hpp"
 #include "exec/Execution.hpp"
 #include "particles/Materials.hpp"
@@ -25,21 +26,27 @@ class ParticleContacts
 {
 public:
     ParticleContacts(exec::Execution execution, Materials const& materials)
-        : execution_(execution), constants_(materials.table()), material_count_(materials.count())
+        : execution_(execution), model_(materials), material_count_(materials.count())
     {
     }
+
+    /// True where the list must carry rolling springs.
+    bool has_rolling_springs() const { return model_.has_rolling_spring(); }
 
     /// Sets force and torque of every particle to the sum over its contacts; advances the tangential springs by dt [s].
     void sum_forces(ParticleState& particles, NeighborList& list, double dt);
 
 private:
-    void compute_pairs(ParticleState& particles, NeighborList& list, double dt);
+    template <class Law, bool one_material>
+    void compute_pairs(LawTable<Law> const& table, ParticleState& particles, NeighborList& list, double dt);
+    template <bool rolls>
     void gather(ParticleState& particles, NeighborList const& list);
 
     exec::Execution execution_;
-    exec::View<ContactConstants const> constants_;
+    ContactModel model_;
     std::int32_t material_count_;
     exec::Buffer<PairForce> pair_forces_;
+    exec::Buffer<Quad> rolling_;  ///< torque of rolling friction on the first particle [N m]; empty where there is none
 };
 
 }  // namespace gimdem

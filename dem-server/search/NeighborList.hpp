@@ -22,8 +22,11 @@ struct NeighborList
     exec::Buffer<std::int32_t> row_offsets;  ///< shape=(n_particles + 1,): pairs of i are [row_offsets i, i + 1)
     exec::Groups pairs_by_second;            ///< pairs in which a particle is second
     exec::Buffer<Quad> displacement;         ///< shape=(n_pairs,), tangential spring of the pair [m]
+    exec::Buffer<Quad> rolling_spring;       ///< shape=(n_pairs,), torque on the first [N m]; see carries_rolling
     exec::Buffer<std::uint8_t> touches;      ///< shape=(n_pairs,), 1 where the pair touched when it was last looked at
     exec::Buffer<Quad> built_at;             ///< shape=(n_particles,), positions when the list was built [m]
+
+    bool carries_rolling = false;  ///< whether rolling_spring is kept; otherwise it is empty
 
     std::int64_t pair_count() const { return first.size(); }
 };
@@ -46,7 +49,7 @@ public:
 private:
     void sort_into_cells(ParticleState& particles);
     void list_pairs(ParticleState const& particles, NeighborList& list);
-    void carry_springs(NeighborList const& old, NeighborList& list);
+    void carry_springs(exec::Buffer<Quad> const& old_spring, NeighborList const& list, exec::Buffer<Quad>& spring);
 
     exec::Execution execution_;
     double skin_;
