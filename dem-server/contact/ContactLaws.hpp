@@ -63,6 +63,9 @@ struct ContactLaw
 
     static constexpr bool rolls = !std::is_same_v<Rolling, NoRolling>;
     static constexpr bool has_rolling_spring = Rolling::has_spring;
+    /// The laws of most scenes: worth kernels of their own for particles of one size.
+    static constexpr bool is_plain = std::is_same_v<Force, HertzMindlinLaw> && std::is_same_v<Rolling, NoRolling> &&
+                                     std::is_same_v<Cohesion, NoCohesion>;
     static constexpr bool coheres = !std::is_same_v<Cohesion, NoCohesion>;
 
     static Constants<double> constants(MaterialSettings const& a, MaterialSettings const& b,

@@ -8,11 +8,13 @@
 namespace gimdem
 {
 
+/// Keeps 0 / 0 away: an unstretched spring stays one.
+inline constexpr double tiny = 1e-300;
+
 /// Removes the part of a spring along the contact's normal, keeps its length, (D.9).
 template <class Real>
 GIMDEM_HD void turn_into_plane(Vector3<Real> const& normal, Vector3<Real>& spring)
 {
-    constexpr double tiny = 1e-300;  // keeps 0 / 0 away: an unstretched spring stays one
     Real const before = spring.dot(spring);
     spring = spring - spring.dot(normal) * normal;
     Real const after = spring.dot(spring);
@@ -39,13 +41,10 @@ struct TangentialSpring
         // A sliding spring is as long as friction can hold, and has no dashpot.
         Real const spring2 = stiffness * stiffness * displacement.dot(displacement);
         auto const slides = greater(spring2, Real(limit * limit));
-        Real damping = dashpot;
-        if (any(slides))
-        {
-            Real const shortened = limit / root(spring2);
-            displacement = choose(slides, shortened, broadcast<Real>(1)) * displacement;
-            damping = choose(slides, broadcast<Real>(0), dashpot);
-        }
+        // Computed for all lanes: a branch that some lane of eight takes is taken too often to be foreseen.
+        Real const shortened = limit / root(Real(spring2 + tiny));
+        displacement = choose(slides, shortened, broadcast<Real>(1)) * displacement;
+        Real const damping = choose(slides, broadcast<Real>(0), dashpot);
         return Real(-stiffness) * displacement - damping * v_t;
     }
 };

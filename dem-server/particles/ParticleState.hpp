@@ -23,11 +23,10 @@ struct ParticleView
     std::int64_t count;
 };
 
-/// What a particle received over a coupling step: kept for the momentum exchange and the balance.
+/// What a particle received over a coupling step: kept for the momentum exchange.
 struct Impulse
 {
     Quad drag;  ///< time integral of the drag force [N s], w: of its coefficient k [kg]
-    Quad wall;  ///< time integral of the walls' force [N s]
 };
 
 /// Owns the arrays. Everything here, in this order, is what a restart needs of the particles.

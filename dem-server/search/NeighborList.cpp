@@ -207,7 +207,29 @@ void NeighborSearch::list_pairs(ParticleState const& particles, NeighborList& li
     exec::for_each(
         execution_, n,
         PairFiller{visit, near, list.row_offsets.view().data, list.first.view().data, list.second.view().data});
-    exec::group_by_key(list.second.host(), n, list.pairs_by_second);
+    list_border(list);
+}
+
+void NeighborSearch::list_border(NeighborList& list)
+{
+    BorderPairs& border = list.border;
+    border.slot.resize(list.pair_count());
+    border.pairs.resize(list.pair_count());
+    border_seconds_.resize(list.pair_count());
+    std::int32_t slots = 0;
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(list.pair_count()); ++k)
+    {
+        bool const crosses = list.first[k] / NeighborList::block != list.second[k] / NeighborList::block;
+        border.slot[k] = crosses ? slots : -1;
+        border.pairs[slots] = k;
+        border_seconds_[slots] = list.second[k];
+        slots += crosses;
+    }
+    border.pairs.resize(slots);
+    border_seconds_.resize(slots);
+    exec::group_by_key(border_seconds_.host(), list.row_offsets.size() - 1, border.by_second);
+    for (std::int32_t& member : border.by_second.members.host())
+        member = border.pairs[member];
 }
 
 void NeighborSearch::carry_springs(exec::Buffer<Quad> const& old_spring, NeighborList const& list,

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "core/Error.hpp"
-#include "exec/ForEach.hpp"
+#include "exec/Reduce.hpp"
 #include "exec/Sort.hpp"
 #include "walls/Triangle.hpp"
 
@@ -386,6 +386,10 @@ void WallContacts::add_forces(ParticleState& particles, double dt)
                                            pairs_.rolling_spring.view().data,
                                            wall_force_.view().data});
         });
+    Quad const* const force = wall_force_.view().data;
+    total_force_ = exec::reduce(
+        execution_, wall_force_.size(), Quad{0, 0, 0, 0}, [=](std::int64_t i) { return force[i]; },
+        [](Quad const& a, Quad const& b) { return a + b; });
 }
 
 }  // namespace gimdem

@@ -50,6 +50,9 @@ public:
     /// Force of the walls on each particle in the last add_forces [N]; w: number of contacts.
     exec::Buffer<Quad> const& force_on_particles() const { return wall_force_; }
 
+    /// Its sum over all particles [N].
+    Vec3 total_force() const { return total_force_.xyz(); }
+
     static constexpr int most_planes = 16;  ///< near one particle
 
 private:
@@ -64,6 +67,7 @@ private:
     WallPairs pairs_, old_;
     exec::Buffer<std::uint64_t> seen_;  ///< what the first look at the walls found, for the second
     exec::Buffer<Quad> wall_force_;
+    Quad total_force_{0, 0, 0, 0};
 };
 
 }  // namespace gimdem
