@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "contact/HertzMindlin.hpp"
+#include "contact/ContactModel.hpp"
 #include "exec/Octet.hpp"
 #include "particles/Materials.hpp"
 #include "particles/ParticleState.hpp"
@@ -45,7 +45,7 @@ struct TouchingPairs
 struct OctetOfParticles
 {
     Vector3<exec::Octet> position, velocity, spin;
-    exec::Octet radius, inverse_mass;
+    exec::Octet radius, inverse_mass, inverse_inertia;
 
     OctetOfParticles(ParticleView const& particles, std::int32_t const* which)
     {
@@ -57,36 +57,19 @@ struct OctetOfParticles
         spin = {w.x, w.y, w.z};
         radius = x.w;
         inverse_mass = v.w;
+        inverse_inertia = w.w;
     }
 };
 
-/// Constants of eight contacts of whatever materials.
-inline ContactConstantsOf<exec::Octet> constants_of(ContactConstants const* table, std::int32_t material_count,
-                                                    std::int32_t const* material, std::int32_t const* i,
-                                                    std::int32_t const* j)
-{
-    ContactConstantsOf<exec::Octet> out;
-    for (int n = 0; n < exec::octet; ++n)
-    {
-        ContactConstants const& pair = table[material[i[n]] * material_count + material[j[n]]];
-        out.young_eff[n] = pair.young_eff;
-        out.friction[n] = pair.friction;
-        out.damping[n] = pair.damping;
-        out.stiffness_ratio[n] = pair.stiffness_ratio;
-        out.root_stiffness_ratio[n] = pair.root_stiffness_ratio;
-    }
-    return out;
-}
-
 /// Sets force and torque of a block's particles to the sum over its pairs, and advances the springs.
-template <bool one_material, bool one_size>
+template <class Law, bool one_material, bool one_size>
 struct PairKernel
 {
     using Octet = exec::Octet;
 
     ParticleView particles;
     NeighborListView list;
-    ContactConstants const* constants;
+    typename Law::template Constants<double> const* constants;
     std::int32_t material_count;
     double dt;
     BorderForce* border;
@@ -127,7 +110,11 @@ private:
         for (int n = 0; n < count; ++n)
         {
             auto const now = static_cast<std::uint8_t>(touching.lanes[n] != 0);
-            if (list.touches[k + n] > now) list.displacement[k + n] = {0, 0, 0, 0};
+            if (list.touches[k + n] > now)
+            {
+                list.displacement[k + n] = {0, 0, 0, 0};
+                if constexpr (Law::has_rolling_spring) list.rolling_spring[k + n] = {0, 0, 0, 0};
+            }
             list.touches[k + n] = now;
             found.pair[found.count] = k + n;
             found.count += now;
@@ -154,18 +141,26 @@ private:
         OctetOfParticles const a(particles, i), b(particles, j);
         ContactGeometry<Octet> const contact = meet(a, b);
         auto const old = exec::load(list.displacement, pair);
-        Vector3<Octet> spring{old.x, old.y, old.z};
-        ContactForce<Octet> const result = apply_law(contact, i, j, spring);
-        exec::store({spring.x, spring.y, spring.z, Octet::Zero()}, list.displacement, pair);
+        ContactSprings<Octet> springs{{old.x, old.y, old.z}};
+        if constexpr (Law::has_rolling_spring)
+        {
+            auto const rolled = exec::load(list.rolling_spring, pair);
+            springs.rolling = {rolled.x, rolled.y, rolled.z};
+        }
+        ContactForce<Octet> const result = apply_law(contact, i, j, springs);
+        store(springs.tangential, list.displacement, pair);
+        if constexpr (Law::has_rolling_spring) store(springs.rolling, list.rolling_spring, pair);
 
         Vector3<Octet> const turn = result.tangential.cross(contact.normal);
-        Vector3<Octet> const turn_a = Octet(a.radius - contact.overlap / 2) * turn;
+        Vector3<Octet> turn_a = Octet(a.radius - contact.overlap / 2) * turn;
+        if constexpr (Law::rolls) turn_a = turn_a + result.rolling;
         Quad force[exec::octet], torque_a[exec::octet], torque_b[exec::octet];
         exec::store({result.force.x, result.force.y, result.force.z, Octet::Zero()}, force);
         exec::store({turn_a.x, turn_a.y, turn_a.z, Octet::Zero()}, torque_a);
         if constexpr (!one_size)
         {
-            Vector3<Octet> const turn_b = Octet(b.radius - contact.overlap / 2) * turn;
+            Vector3<Octet> turn_b = Octet(b.radius - contact.overlap / 2) * turn;
+            if constexpr (Law::rolls) turn_b = turn_b - result.rolling;
             exec::store({turn_b.x, turn_b.y, turn_b.z, Octet::Zero()}, torque_b);
         }
         for (int n = 0; n < count; ++n)
@@ -187,14 +182,23 @@ private:
             border[slot] = {{-force.x, -force.y, -force.z, 0}, torque};
     }
 
+    static void store(Vector3<Octet> const& from, Quad* values, std::int32_t const* place)
+    {
+        exec::store({from.x, from.y, from.z, Octet::Zero()}, values, place);
+    }
+
     ContactForce<Octet> apply_law(ContactGeometry<Octet> const& contact, std::int32_t const* i, std::int32_t const* j,
-                                  Vector3<Octet>& spring) const
+                                  ContactSprings<Octet>& springs) const
     {
         if constexpr (one_material)
-            return HertzMindlin<Octet>{constants[0], dt}(contact, spring);
+            return Law::template apply<Octet>(constants[0], dt, contact, springs);
         else
-            return HertzMindlin<Octet, ContactConstantsOf<Octet>>{
-                constants_of(constants, material_count, particles.material, i, j), dt}(contact, spring);
+        {
+            std::int32_t row[exec::octet];
+            for (int n = 0; n < exec::octet; ++n)
+                row[n] = particles.material[i[n]] * material_count + particles.material[j[n]];
+            return Law::template apply<Octet>(octet_of<Law>(constants, row), dt, contact, springs);
+        }
     }
 
     static ContactGeometry<Octet> meet(OctetOfParticles const& a, OctetOfParticles const& b)
@@ -209,21 +213,29 @@ private:
         Vector3<Octet> normal = per_distance * between;
         normal.z = exec::choose(apart, normal.z, one);
         Octet const overlap = reach - distance;
+        Vector3<Octet> const spin = Octet(a.radius - overlap / 2) * a.spin + Octet(b.radius - overlap / 2) * b.spin;
+        ContactGeometry<Octet> contact{.normal = normal,
+                                       .overlap = overlap,
+                                       .velocity = a.velocity - b.velocity - spin.cross(normal),
+                                       .radius_eff = {},
+                                       .mass_eff = {}};
         if constexpr (one_size)
         {
-            Vector3<Octet> const spin = Octet(a.radius - overlap / 2) * (a.spin + b.spin);
-            return {.normal = normal,
-                    .overlap = overlap,
-                    .velocity = a.velocity - b.velocity - spin.cross(normal),
-                    .radius_eff = Octet::Constant(a.radius[0] / 2),
-                    .mass_eff = Octet::Constant(0.5 / a.inverse_mass[0])};
+            contact.radius_eff = Octet::Constant(a.radius[0] / 2);
+            contact.mass_eff = Octet::Constant(0.5 / a.inverse_mass[0]);
         }
-        Vector3<Octet> const spin = Octet(a.radius - overlap / 2) * a.spin + Octet(b.radius - overlap / 2) * b.spin;
-        return {.normal = normal,
-                .overlap = overlap,
-                .velocity = a.velocity - b.velocity - spin.cross(normal),
-                .radius_eff = a.radius * b.radius / reach,
-                .mass_eff = 1 / (a.inverse_mass + b.inverse_mass)};
+        else
+        {
+            contact.radius_eff = a.radius * b.radius / reach;
+            contact.mass_eff = 1 / (a.inverse_mass + b.inverse_mass);
+        }
+        if constexpr (Law::rolls)
+        {
+            contact.spin = a.spin - b.spin;
+            contact.inverse_inertia = a.inverse_inertia + b.inverse_inertia;
+        }
+        if constexpr (Law::coheres) contact.per_distance = per_distance;
+        return contact;
     }
 };
 

@@ -9,18 +9,24 @@ namespace gimdem
 void ParticleContacts::sum_forces(ParticleState& particles, NeighborList& list, double dt)
 {
     border_.resize(list.border.by_second.members.size());
-    auto const compute = [&]<bool one_material, bool one_size>()
-    {
-        exec::for_each_uneven(execution_, list.block_count(),
-                              PairKernel<one_material, one_size>{particles.view(), list.view(), constants_.data,
-                                                                 material_count_, dt, border_.view().data});
-    };
-    if (material_count_ > 1)
-        compute.operator()<false, false>();
-    else if (one_size_)
-        compute.operator()<true, true>();
-    else
-        compute.operator()<true, false>();
+    model_.visit(
+        [&]<class Law>(LawTable<Law> const& table)
+        {
+            auto const compute = [&]<bool one_material, bool one_size>()
+            {
+                exec::for_each_uneven(execution_, list.block_count(),
+                                      PairKernel<Law, one_material, one_size>{particles.view(), list.view(),
+                                                                              table.constants.view().data,
+                                                                              material_count_, dt,
+                                                                              border_.view().data});
+            };
+            if (material_count_ > 1)
+                compute.template operator()<false, false>();
+            else if (Law::is_plain && one_size_)
+                compute.template operator()<true, Law::is_plain>();
+            else
+                compute.template operator()<true, false>();
+        });
     exec::for_each(execution_, particles.count(), BorderKernel{particles.view(), list.view(), border_.view().data});
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "contact/ContactModel.hpp"
 #include "contact/PairKernel.hpp"
 #include "exec/Buffer.hpp"
 #include "exec/Execution.hpp"
@@ -20,16 +21,19 @@ class ParticleContacts
 public:
     /// `one_size`: all particles have one radius and one density.
     ParticleContacts(exec::Execution execution, Materials const& materials, bool one_size)
-        : execution_(execution), constants_(materials.table()), material_count_(materials.count()), one_size_(one_size)
+        : execution_(execution), model_(materials), material_count_(materials.count()), one_size_(one_size)
     {
     }
+
+    /// True where the list must carry rolling springs.
+    bool has_rolling_springs() const { return model_.has_rolling_spring(); }
 
     /// Sets force and torque of every particle to the sum over its contacts; advances the tangential springs by dt [s].
     void sum_forces(ParticleState& particles, NeighborList& list, double dt);
 
 private:
     exec::Execution execution_;
-    exec::View<ContactConstants const> constants_;
+    ContactModel model_;
     std::int32_t material_count_;
     bool one_size_;
     exec::Buffer<BorderForce> border_;

@@ -32,6 +32,9 @@ std::string entry(std::string const& list, std::size_t index, std::string const&
 /// effect, or would insert overlapping particles.
 void check_insertion(InsertionSettings const& insertion, std::size_t index, Document const& document);
 
+/// Throw UserError where a [[contacts]] misses what the laws chosen in [dem] need, or has what they do not use.
+void check_contact_laws(Case const& input, Document const& document);
+
 /// Throw UserError where settings contradict each other or name what does not exist.
 void check_case(Case const& input, Document const& document);
 

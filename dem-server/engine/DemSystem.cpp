@@ -20,6 +20,7 @@ DemSystem::DemSystem(Case const& settings, exec::Execution execution, Materials 
       particle_contacts_(execution, materials, have_one_size(particles_)),
       wall_contacts_(execution, materials, materials.number_of(settings.walls.material), walls)
 {
+    neighbors_.carries_rolling = particle_contacts_.has_rolling_springs();
     impulses_.resize(particles_.count());
     impulses_.fill({});
 }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
+#include "contact/LinearSpringDashpot.hpp"
 #include "core/Error.hpp"
 #include "search/NeighborList.hpp"
 
@@ -20,8 +22,55 @@ double shortest_rayleigh_time(Materials const& materials, ParticleState const& p
     return shortest;
 }
 
+double shortest_linear_contact(Case const& settings, Materials const& materials, ParticleState const& particles)
+{
+    constexpr double none = std::numeric_limits<double>::infinity();
+    std::vector<double> lightest(static_cast<std::size_t>(materials.count()), none);
+    for (std::int64_t p = 0; p < particles.count(); ++p)
+    {
+        double& mass = lightest[static_cast<std::size_t>(particles.material[p])];
+        mass = std::min(mass, 1 / particles.velocity[p].w);
+    }
+    double shortest = none;
+    auto const meet = [&](int a, int b, double inverse_mass)
+    {
+        ContactSettings const* pair = materials.contact(a, b);
+        if (pair != nullptr && inverse_mass > 0)
+            shortest = std::min(shortest, LinearSpringDashpot::duration(pair->normal_stiffness, 1 / inverse_mass));
+    };
+    int const wall = materials.number_of(settings.walls.material);
+    for (int a = 0; a < materials.count(); ++a)
+    {
+        double const mass_a = lightest[static_cast<std::size_t>(a)];
+        if (mass_a == none) continue;
+        meet(a, wall, 1 / mass_a);
+        for (int b = 0; b <= a; ++b)
+            if (lightest[static_cast<std::size_t>(b)] != none)
+                meet(a, b, 1 / mass_a + 1 / lightest[static_cast<std::size_t>(b)]);
+    }
+    return shortest;
+}
+
+namespace
+{
+
+void check_against_linear_contact(Case const& settings, double contact)
+{
+    double const share = settings.dem.time_step / contact;
+    if (share <= contact_share_limit) return;
+    throw UserError(fmt::format(
+        "[dem] time_step = {:.6g} s is {:.3g} % of the shortest contact, {:.6g} s (above {:.0f} % the contacts are not "
+        "resolved and the restitution is wrong); use at most {:.3g} s, better 2 to 5 % of the contact, or a smaller "
+        "normal_stiffness",
+        settings.dem.time_step, 100 * share, contact, 100 * contact_share_limit, contact_share_limit * contact));
+}
+
+}  // namespace
+
 void check_time_step(Case const& settings, Materials const& materials, ParticleState const& particles)
 {
+    if (settings.dem.contact_law == LinearSpringDashpot::name)
+        return check_against_linear_contact(settings, shortest_linear_contact(settings, materials, particles));
     double const rayleigh = shortest_rayleigh_time(materials, particles);
     double const share = settings.dem.time_step / rayleigh;
     if (share <= rayleigh_share_limit) return;

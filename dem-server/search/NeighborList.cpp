@@ -144,11 +144,16 @@ std::span<std::int32_t const> NeighborSearch::build(ParticleState& particles, Ne
     swap(old_.second, list.second);
     swap(old_.row_offsets, list.row_offsets);
     swap(old_.displacement, list.displacement);
+    swap(old_.rolling_spring, list.rolling_spring);
     list_pairs(particles, list);
     if (has_springs)
-        carry_springs(old_, list);
+        carry_springs(old_.displacement, list, list.displacement);
     else
         list.displacement.fill({0, 0, 0, 0});
+    if (has_springs && list.carries_rolling)
+        carry_springs(old_.rolling_spring, list, list.rolling_spring);
+    else
+        list.rolling_spring.fill({0, 0, 0, 0});
     list.built_at = particles.position;
     return by_cell_.members.host();
 }
@@ -196,6 +201,7 @@ void NeighborSearch::list_pairs(ParticleState const& particles, NeighborList& li
     list.first.resize(pairs);
     list.second.resize(pairs);
     list.displacement.resize(pairs);
+    list.rolling_spring.resize(list.carries_rolling ? pairs : 0);
     list.touches.resize(pairs);
     list.touches.fill(1);
     exec::for_each(
@@ -226,12 +232,13 @@ void NeighborSearch::list_border(NeighborList& list)
         member = border.pairs[member];
 }
 
-void NeighborSearch::carry_springs(NeighborList const& old, NeighborList& list)
+void NeighborSearch::carry_springs(exec::Buffer<Quad> const& old_spring, NeighborList const& list,
+                                   exec::Buffer<Quad>& spring)
 {
     exec::for_each(execution_, list.pair_count(),
                    SpringCarrier{list.first.view().data, list.second.view().data, by_cell_.members.view().data,
-                                 old.row_offsets.view().data, old.second.view().data, old.displacement.view().data,
-                                 list.displacement.view().data});
+                                 old_.row_offsets.view().data, old_.second.view().data, old_spring.view().data,
+                                 spring.view().data});
 }
 
 }  // namespace gimdem

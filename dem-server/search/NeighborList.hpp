@@ -33,6 +33,7 @@ struct NeighborListView
     std::int32_t const* border_offsets;
     std::int32_t const* border_pairs;
     Quad* displacement;
+    Quad* rolling_spring;  ///< null where no law has such a spring
     std::uint8_t* touches;
 };
 
@@ -45,8 +46,11 @@ struct NeighborList
     exec::Buffer<std::int32_t> row_offsets;  ///< shape=(n_particles + 1,): pairs of i are [row_offsets i, i + 1)
     BorderPairs border;
     exec::Buffer<Quad> displacement;     ///< shape=(n_pairs,), tangential spring of the pair [m]
+    exec::Buffer<Quad> rolling_spring;   ///< shape=(n_pairs,), torque on the first [N m]; see carries_rolling
     exec::Buffer<std::uint8_t> touches;  ///< shape=(n_pairs,), 1 where the pair touched when it was last looked at
     exec::Buffer<Quad> built_at;         ///< shape=(n_particles,), positions when the list was built [m]
+
+    bool carries_rolling = false;  ///< whether rolling_spring is kept; otherwise it is empty
 
     std::int64_t pair_count() const { return first.size(); }
     std::int64_t block_count() const { return (row_offsets.size() + block - 2) / block; }
@@ -59,6 +63,7 @@ struct NeighborList
                 border.by_second.offsets.view().data,
                 border.by_second.members.view().data,
                 displacement.view().data,
+                rolling_spring.view().data,
                 touches.view().data};
     }
 };
@@ -82,7 +87,7 @@ private:
     void sort_into_cells(ParticleState& particles);
     void list_border(NeighborList& list);
     void list_pairs(ParticleState const& particles, NeighborList& list);
-    void carry_springs(NeighborList const& old, NeighborList& list);
+    void carry_springs(exec::Buffer<Quad> const& old_spring, NeighborList const& list, exec::Buffer<Quad>& spring);
 
     exec::Execution execution_;
     double skin_;
