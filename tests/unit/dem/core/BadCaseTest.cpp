@@ -80,7 +80,7 @@ Mistake const mistakes[] = {
     {"VoidFractionMinimumOne", "minimum = 0.1", "minimum = 1.0",
      "case.toml:47: \"void_fraction_minimum\" in [mapping] is 1 (must be in (0, 1)); write e.g. void_fraction_minimum = 0.1"},
     {"ZeroSkin", "skin = 0.2", "skin = 0.0",
-     "case.toml:15: \"skin\" in [dem] is 0 (must be in (0, 1]); write e.g. skin = 0.1"},
+     "case.toml:15: \"skin\" in [dem] is 0 (must be in (0, 1]); write e.g. skin = 0.3"},
     {"ZeroSampleInterval", "1e-3\nplanes", "0.0\nplanes",
      "case.toml:49: \"sample_interval\" in [output] is 0 (must be > 0 s); write e.g. sample_interval = 1e-3"},
     {"NegativeThreads", "threads = 2", "threads = -1",
@@ -95,6 +95,20 @@ Mistake const mistakes[] = {
      "case.toml:12: \"gravity\" in [dem] is nan (must be a finite number); write e.g. gravity = [0.0, 0.0, -9.81]"},
     {"InfiniteCorner", "0.5]]", "inf]]",
      "case.toml:40: \"box\" in [[insertion]] is inf (must be a finite number); write e.g. box = [[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]"},
+
+    // periodic domain
+    {"PeriodicAxesMiscounted", "[walls]", "[domain]\nperiodic = [true]\n[walls]",
+     "case.toml:35: \"periodic\" in [domain] is an array (an array of three, true or false is needed); "
+     "write e.g. periodic = [true, true, false]"},
+    {"PeriodicAxisAsNumber", "[walls]", "[domain]\nperiodic = [true, 1, false]\n[walls]",
+     "case.toml:35: \"periodic\" in [domain] is an array (an array of three, true or false is needed); "
+     "write e.g. periodic = [true, true, false]"},
+    {"PeriodicWithoutBox", "[walls]", "[domain]\nperiodic = [false, true, false]\n[walls]",
+     "case.toml:34: box in [domain] is empty along y (that axis is periodic, the box tells its period); "
+     "write e.g. box = [[0.0, 0.0, 0.0], [0.05, 0.05, 0.05]]"},
+    {"PeriodicBoxUpsideDown", "[walls]", "[domain]\nperiodic = [false, false, true]\nbox = [[0, 0, 1], [1, 1, 0]]\n[walls]",
+     "case.toml:36: box in [domain] is empty along z (that axis is periodic, the box tells its period); "
+     "write e.g. box = [[0.0, 0.0, 0.0], [0.05, 0.05, 0.05]]"},
 
     // words
     {"UnknownSchedule", "schedule = \"serial\"", "schedule = \"overlaped\"",
