@@ -53,7 +53,7 @@ ContactConstantsOf<Octet> constants_of(ContactConstants const* table, std::int32
 
 /// Forces and torques of the pairs of one block of the list, and their springs one step on: first the pairs that touch
 /// are picked, then computed eight at a time.
-template <bool one_material>
+template <bool one_material, class Space>
 struct PairKernel
 {
     ParticleView particles;
@@ -66,6 +66,7 @@ struct PairKernel
     std::uint8_t* touches;
     Quad* displacement;
     PairForce* forces;
+    Space space;
 
     void operator()(std::int64_t b) const
     {
@@ -86,7 +87,8 @@ private:
         {
             Quad const xi = particles.position[first[k]];
             Quad const xj = particles.position[second[k]];
-            double const dx = xi.x - xj.x, dy = xi.y - xj.y, dz = xi.z - xj.z;
+            double dx = xi.x - xj.x, dy = xi.y - xj.y, dz = xi.z - xj.z;
+            space.shorten(dx, dy, dz);
             double const reach = xi.w + xj.w;
             bool const now = dx * dx + dy * dy + dz * dz < reach * reach;
             if (touches[k] != 0 && !now) displacement[k] = {0, 0, 0, 0};
@@ -129,9 +131,10 @@ private:
                 constants_of(constants, material_count, particles.material, i, j), dt}(contact, spring);
     }
 
-    static ContactGeometry<Octet> meet(OctetOfParticles const& a, OctetOfParticles const& b)
+    ContactGeometry<Octet> meet(OctetOfParticles const& a, OctetOfParticles const& b) const
     {
-        Vector3<Octet> const between = a.position - b.position;
+        Vector3<Octet> between = a.position - b.position;
+        space.shorten(between.x, between.y, between.z);
         Octet const reach = a.radius + b.radius;
         Octet const distance = between.dot(between).sqrt();
         // Two centres in one place have no normal; any direction parts them.
@@ -196,18 +199,22 @@ void ParticleContacts::compute_pairs(ParticleState& particles, NeighborList& lis
 {
     pair_forces_.resize(list.pair_count());
     std::int64_t const blocks = (list.pair_count() + block - 1) / block;
-    auto const compute = [&]<bool one_material>()
+    auto const compute = [&]<bool one_material>(auto space)
     {
-        exec::for_each(
-            execution_, blocks,
-            PairKernel<one_material>{particles.view(), list.first.view().data, list.second.view().data,
-                                     list.pair_count(), constants_.data, material_count_, dt, list.touches.view().data,
-                                     list.displacement.view().data, pair_forces_.view().data});
+        exec::for_each(execution_, blocks,
+                       PairKernel<one_material, decltype(space)>{
+                           particles.view(), list.first.view().data, list.second.view().data, list.pair_count(),
+                           constants_.data, material_count_, dt, list.touches.view().data,
+                           list.displacement.view().data, pair_forces_.view().data, space});
     };
-    if (material_count_ == 1)
-        compute.operator()<true>();
-    else
-        compute.operator()<false>();
+    in_space_of(domain_,
+                [&](auto space)
+                {
+                    if (material_count_ == 1)
+                        compute.template operator()<true>(space);
+                    else
+                        compute.template operator()<false>(space);
+                });
 }
 
 void ParticleContacts::gather(ParticleState& particles, NeighborList const& list)

@@ -9,6 +9,7 @@
 #include "exec/Execution.hpp"
 #include "particles/Materials.hpp"
 #include "particles/ParticleState.hpp"
+#include "search/Domain.hpp"
 #include "search/NeighborList.hpp"
 
 namespace gimdem
@@ -24,8 +25,8 @@ struct alignas(64) PairForce
 class ParticleContacts
 {
 public:
-    ParticleContacts(exec::Execution execution, Materials const& materials)
-        : execution_(execution), constants_(materials.table()), material_count_(materials.count())
+    ParticleContacts(exec::Execution execution, Materials const& materials, Domain const& domain = {})
+        : execution_(execution), constants_(materials.table()), material_count_(materials.count()), domain_(domain)
     {
     }
 
@@ -39,6 +40,7 @@ private:
     exec::Execution execution_;
     exec::View<ContactConstants const> constants_;
     std::int32_t material_count_;
+    Domain domain_;
     exec::Buffer<PairForce> pair_forces_;
 };
 

@@ -59,6 +59,9 @@ std::string description(Case const& settings)
         add_triple(i.box[1]);
         add_triple(i.velocity);
     }
+    if (Domain::of(settings.domain).is_periodic())
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            add(settings.domain.periodic[axis], settings.domain.box[0][axis], settings.domain.box[1][axis]);
     if (settings.settle) add(settings.settle->duration, settings.settle->kinetic_energy);
     return text;
 }
