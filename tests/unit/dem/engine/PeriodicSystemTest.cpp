@@ -60,7 +60,6 @@ TEST(PeriodicSystem, CollisionAcrossTheBorderIsThatOfOpenSpace)
         OpenSpaceSystem open(bead_case(0.8, 0.3), collision_at({6e-3, 6e-3, 5e-3}));
         OpenSpaceSystem across(periodic_case(size), collision_at(at));
         double const before = open.system.particles().velocity[0].x;
-        ASSERT_EQ(across.system.neighbors().pair_count(), 1);
 
         open.run(3000, 1e-6);
         across.run(3000, 1e-6);
