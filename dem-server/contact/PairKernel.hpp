@@ -12,6 +12,7 @@
 #include "exec/Octet.hpp"
 #include "particles/Materials.hpp"
 #include "particles/ParticleState.hpp"
+#include "search/Domain.hpp"
 #include "search/NeighborList.hpp"
 
 namespace gimdem
@@ -62,7 +63,7 @@ struct OctetOfParticles
 };
 
 /// Sets force and torque of a block's particles to the sum over its pairs, and advances the springs.
-template <class Law, bool one_material, bool one_size>
+template <class Law, bool one_material, bool one_size, class Space>
 struct PairKernel
 {
     using Octet = exec::Octet;
@@ -73,6 +74,7 @@ struct PairKernel
     std::int32_t material_count;
     double dt;
     BorderForce* border;
+    Space space;
 
     void operator()(std::int64_t b) const
     {
@@ -105,7 +107,9 @@ private:
             j[n] = list.second[pair];
         }
         auto const a = exec::load(particles.position, i), b = exec::load(particles.position, j);
-        Octet const dx = a.x - b.x, dy = a.y - b.y, dz = a.z - b.z, reach = a.w + b.w;
+        Octet dx = a.x - b.x, dy = a.y - b.y, dz = a.z - b.z;
+        space.shorten(dx, dy, dz);
+        Octet const reach = a.w + b.w;
         exec::OctetMask const touching = exec::greater(reach * reach, dx * dx + dy * dy + dz * dz);
         for (int n = 0; n < count; ++n)
         {
@@ -201,9 +205,10 @@ private:
         }
     }
 
-    static ContactGeometry<Octet> meet(OctetOfParticles const& a, OctetOfParticles const& b)
+    ContactGeometry<Octet> meet(OctetOfParticles const& a, OctetOfParticles const& b) const
     {
-        Vector3<Octet> const between = a.position - b.position;
+        Vector3<Octet> between = a.position - b.position;
+        space.shorten(between.x, between.y, between.z);
         Octet const reach = a.radius + b.radius;
         Octet const distance = between.dot(between).sqrt();
         // Two centres in one place have no normal; any direction parts them.

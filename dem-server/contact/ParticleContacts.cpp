@@ -12,20 +12,22 @@ void ParticleContacts::sum_forces(ParticleState& particles, NeighborList& list, 
     model_.visit(
         [&]<class Law>(LawTable<Law> const& table)
         {
-            auto const compute = [&]<bool one_material, bool one_size>()
+            auto const compute = [&]<bool one_material, bool one_size>(auto space)
             {
                 exec::for_each_uneven(execution_, list.block_count(),
-                                      PairKernel<Law, one_material, one_size>{particles.view(), list.view(),
-                                                                              table.constants.view().data,
-                                                                              material_count_, dt,
-                                                                              border_.view().data});
+                                      PairKernel<Law, one_material, one_size, decltype(space)>{
+                                          particles.view(), list.view(), table.constants.view().data, material_count_,
+                                          dt, border_.view().data, space});
             };
-            if (material_count_ > 1)
-                compute.template operator()<false, false>();
+            // Periodic scenes are few: one kernel serves them all.
+            if (domain_.is_periodic())
+                compute.template operator()<false, false>(domain_.space());
+            else if (material_count_ > 1)
+                compute.template operator()<false, false>(OpenSpace{});
             else if (Law::is_plain && one_size_)
-                compute.template operator()<true, Law::is_plain>();
+                compute.template operator()<true, Law::is_plain>(OpenSpace{});
             else
-                compute.template operator()<true, false>();
+                compute.template operator()<true, false>(OpenSpace{});
         });
     exec::for_each(execution_, particles.count(), BorderKernel{particles.view(), list.view(), border_.view().data});
 }

@@ -11,6 +11,7 @@
 #include "exec/Execution.hpp"
 #include "particles/Materials.hpp"
 #include "particles/ParticleState.hpp"
+#include "search/Domain.hpp"
 #include "search/NeighborList.hpp"
 
 namespace gimdem
@@ -20,8 +21,12 @@ class ParticleContacts
 {
 public:
     /// `one_size`: all particles have one radius and one density.
-    ParticleContacts(exec::Execution execution, Materials const& materials, bool one_size)
-        : execution_(execution), model_(materials), material_count_(materials.count()), one_size_(one_size)
+    ParticleContacts(exec::Execution execution, Materials const& materials, bool one_size, Domain const& domain = {})
+        : execution_(execution),
+          model_(materials),
+          material_count_(materials.count()),
+          one_size_(one_size),
+          domain_(domain)
     {
     }
 
@@ -36,6 +41,7 @@ private:
     ContactModel model_;
     std::int32_t material_count_;
     bool one_size_;
+    Domain domain_;
     exec::Buffer<BorderForce> border_;
 };
 

@@ -77,6 +77,13 @@ struct WallSettings
     std::vector<std::string> also;  ///< patches that stop particles although the fluid passes
 };
 
+/// [domain]
+struct DomainSettings
+{
+    std::array<bool, 3> periodic{false, false, false};  ///< along x, y, z
+    std::array<Triple, 2> box{};                        ///< corners; only periodic axes count [m]
+};
+
 /// [[insertion]]
 struct InsertionSettings
 {
@@ -144,6 +151,7 @@ struct Case
     std::vector<MaterialSettings> materials;
     std::vector<ContactSettings> contacts;
     WallSettings walls;
+    DomainSettings domain;
     std::vector<InsertionSettings> insertion;
     std::optional<SettleSettings> settle;
     FluidForceSettings fluid_forces;

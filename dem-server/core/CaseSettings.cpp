@@ -23,6 +23,7 @@ Fields<Case> const& settings_of(Case const&)
         required("materials",    &Case::materials,    "what particles and walls are made of"),
         required("contacts",     &Case::contacts,     "how two materials touch"),
         required("walls",        &Case::walls,        "what bounds the particles"),
+        optional("domain",       &Case::domain,       "where space repeats itself; no coupled run has it yet"),
         required("insertion",    &Case::insertion,    "which particles there are at the start"),
         optional("settle",       &Case::settle,       "particles fall and come to rest before the fluid starts"),
         optional("fluid_forces", &Case::fluid_forces, "what the fluid does to a particle"),
@@ -124,6 +125,18 @@ Fields<WallSettings> const& settings_of(WallSettings const&)
                  "what the wall patches of the mesh are made of"),
         optional("also",     &S::also,     "", anything(), "[\"inlet\"]",
                  "patches that stop particles although the fluid passes"),
+    };
+    return fields;
+}
+
+Fields<DomainSettings> const& settings_of(DomainSettings const&)
+{
+    using S = DomainSettings;
+    static Fields<S> const fields = {
+        optional("periodic", &S::periodic, "", anything(), "[true, true, false]",
+                 "along x, y, z: what leaves the box on one side comes in on the other"),
+        optional("box",      &S::box,      "m", anything(), "[[0.0, 0.0, 0.0], [0.05, 0.05, 0.05]]",
+                 "lower and upper corner; only its periodic axes count"),
     };
     return fields;
 }

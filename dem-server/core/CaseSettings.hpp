@@ -15,6 +15,7 @@ case_file::Fields<DemSettings> const& settings_of(DemSettings const&);
 case_file::Fields<MaterialSettings> const& settings_of(MaterialSettings const&);
 case_file::Fields<ContactSettings> const& settings_of(ContactSettings const&);
 case_file::Fields<WallSettings> const& settings_of(WallSettings const&);
+case_file::Fields<DomainSettings> const& settings_of(DomainSettings const&);
 case_file::Fields<InsertionSettings> const& settings_of(InsertionSettings const&);
 case_file::Fields<SettleSettings> const& settings_of(SettleSettings const&);
 case_file::Fields<FluidForceSettings> const& settings_of(FluidForceSettings const&);

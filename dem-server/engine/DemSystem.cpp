@@ -16,8 +16,8 @@ DemSystem::DemSystem(Case const& settings, exec::Execution execution, Materials 
     : execution_(execution),
       gravity_{settings.dem.gravity[0], settings.dem.gravity[1], settings.dem.gravity[2]},
       particles_(std::move(particles)),
-      search_(execution, settings.dem.skin * smallest_radius(particles_)),
-      particle_contacts_(execution, materials, have_one_size(particles_)),
+      search_(execution, settings.dem.skin * smallest_radius(particles_), Domain::of(settings.domain)),
+      particle_contacts_(execution, materials, have_one_size(particles_), Domain::of(settings.domain)),
       wall_contacts_(execution, materials, materials.number_of(settings.walls.material), walls)
 {
     neighbors_.carries_rolling = particle_contacts_.has_rolling_springs();
@@ -88,7 +88,7 @@ void DemSystem::update_neighbors()
     if (!search_.is_stale(particles_, neighbors_)) return;
     auto const order = search_.build(particles_, neighbors_);
     wall_contacts_.build(particles_, search_.skin(), order);
-    permute(impulses_, order);
+    permute(execution_, impulses_, order);
     if (on_permutation_) on_permutation_(order);
     ++rebuilds_;
 }

@@ -67,6 +67,9 @@ std::string description(Case const& settings)
             add(c.normal_stiffness, c.tangential_stiffness_ratio, c.rolling_friction, c.rolling_damping,
                 c.cohesion_energy_density);
     }
+    if (Domain::of(settings.domain).is_periodic())
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            add(settings.domain.periodic[axis], settings.domain.box[0][axis], settings.domain.box[1][axis]);
     if (settings.settle) add(settings.settle->duration, settings.settle->kinetic_energy);
     return text;
 }

@@ -81,16 +81,19 @@ void check_time_step(Case const& settings, Materials const& materials, ParticleS
         settings.dem.time_step, 100 * share, rayleigh, 100 * rayleigh_share_limit, rayleigh_share_limit * rayleigh));
 }
 
-void check_overlaps(exec::Execution execution, ParticleState const& particles)
+void check_overlaps(exec::Execution execution, ParticleState const& particles, Domain const& domain)
 {
     ParticleState sorted = particles;
     NeighborList list;
-    NeighborSearch(execution, 0).build(sorted, list);
+    NeighborSearch(execution, 0, domain).build(sorted, list);
+    PeriodicSpace const space = domain.space();
     for (std::int64_t k = 0; k < list.pair_count(); ++k)
     {
         Quad const a = sorted.position[list.first[k]];
         Quad const b = sorted.position[list.second[k]];
-        double const overlap = a.w + b.w - (a.xyz() - b.xyz()).norm();
+        Vec3 between = a.xyz() - b.xyz();
+        space.shorten(between.x(), between.y(), between.z());
+        double const overlap = a.w + b.w - between.norm();
         if (overlap <= 0.01 * 2 * std::min(a.w, b.w)) continue;
         throw UserError(
             fmt::format("particles {} and {} overlap by {:.3g} m at ({:.6g}, {:.6g}, {:.6g}) m from the start "
@@ -98,6 +101,14 @@ void check_overlaps(exec::Execution execution, ParticleState const& particles)
                         "file",
                         sorted.id[list.first[k]], sorted.id[list.second[k]], overlap, a.x, a.y, a.z));
     }
+}
+
+void refuse_periodic_coupled_run(Case const& settings)
+{
+    if (!Domain::of(settings.domain).is_periodic()) return;
+    throw UserError(
+        "[domain] periodic is set in a coupled run (the client's mesh has no periodic patches that the "
+        "particles could pass through); remove [domain], or run the particles alone");
 }
 
 }  // namespace gimdem

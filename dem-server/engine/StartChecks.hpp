@@ -6,6 +6,7 @@
 #include "exec/Execution.hpp"
 #include "particles/Materials.hpp"
 #include "particles/ParticleState.hpp"
+#include "search/Domain.hpp"
 
 namespace gimdem
 {
@@ -27,7 +28,12 @@ double shortest_linear_contact(Case const& settings, Materials const& materials,
 /// above 10 % of the shortest contact: tells both and the largest step allowed.
 void check_time_step(Case const& settings, Materials const& materials, ParticleState const& particles);
 
-/// Throws UserError where two particles overlap by more than 1 % of the smaller diameter: names both and the overlap.
-void check_overlaps(exec::Execution execution, ParticleState const& particles);
+/// Throws UserError where two particles overlap by more than 1 % of the smaller diameter, across a periodic border too:
+/// names both and the overlap.
+void check_overlaps(exec::Execution execution, ParticleState const& particles, Domain const& domain = {});
+
+/// Throws UserError for a coupled run with a periodic domain: walls and mapping know the client's mesh only, which has
+/// no other side to come in on.
+void refuse_periodic_coupled_run(Case const& settings);
 
 }  // namespace gimdem

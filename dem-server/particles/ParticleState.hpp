@@ -6,6 +6,7 @@
 #include <span>
 
 #include "exec/Buffer.hpp"
+#include "exec/ForEach.hpp"
 #include "exec/Vector.hpp"
 
 namespace gimdem
@@ -45,7 +46,7 @@ struct ParticleState
     void resize(std::int64_t count);
 
     /// Put the particle that was at order[i] at i.
-    void permute(std::span<std::int32_t const> order);
+    void permute(exec::Execution const& execution, std::span<std::int32_t const> order);
 
     double volume(std::int64_t i) const;  ///< [m^3]
     double mass(std::int64_t i) const;    ///< [kg]
@@ -64,6 +65,17 @@ void permute(exec::Buffer<T>& values, std::span<std::int32_t const> order)
     exec::Buffer<T> const old = values;
     for (std::size_t i = 0; i < order.size(); ++i)
         values[static_cast<std::int64_t>(i)] = old[order[i]];
+}
+
+/// The same on all threads.
+template <class T>
+void permute(exec::Execution const& execution, exec::Buffer<T>& values, std::span<std::int32_t const> order)
+{
+    exec::Buffer<T> permuted(static_cast<std::int64_t>(order.size()));
+    exec::for_each(execution, permuted.size(),
+                   [to = permuted.view(), from = values.view(), from_place = order.data()](std::int64_t i)
+                   { to[i] = from[from_place[i]]; });
+    swap(values, permuted);
 }
 
 }  // namespace gimdem

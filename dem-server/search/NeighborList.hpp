@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Pairs of particles that touch or may soon touch: a Verlet list built from a grid of cells, rebuilt when a particle
-/// has moved more than half the skin.
+/// Pairs of particles that touch or may soon touch: a Verlet list built from grids of cells, one for each level of
+/// sizes, and rebuilt when a particle has moved more than half the skin, theory.md (D.72)-(D.75).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 #include "exec/Execution.hpp"
 #include "exec/Sort.hpp"
 #include "particles/ParticleState.hpp"
-#include "search/CellGrid.hpp"
+#include "search/Domain.hpp"
+#include "search/SizeLevels.hpp"
 
 namespace gimdem
 {
@@ -72,26 +73,38 @@ struct NeighborList
 class NeighborSearch
 {
 public:
-    NeighborSearch(exec::Execution execution, double skin) : execution_(execution), skin_(skin) {}
+    NeighborSearch(exec::Execution execution, double skin, Domain const& domain = {})
+        : execution_(execution), skin_(skin), domain_(domain)
+    {
+    }
 
     double skin() const { return skin_; }  ///< [m]
 
     /// True when the list may miss a contact: a particle moved more than skin / 2 since it was built.
     bool is_stale(ParticleState const& particles, NeighborList const& list) const;
 
-    /// Sorts the particles by the cells of a grid, lists the pairs and carries the tangential springs along. Returns
-    /// the permutation: the particle now at i was at order[i]. Throws UserError for a position that is not finite.
+    /// Moves the particles into the periodic box, sorts them by level and cell, lists the pairs and carries the
+    /// tangential springs along. Returns the permutation: the particle now at i was at order[i]. Throws UserError for a
+    /// position that is not finite and for a periodic box that is too small.
     std::span<std::int32_t const> build(ParticleState& particles, NeighborList& list);
+
+    /// How many pairs build() has looked at to find those it listed: the cost of a search, whatever the machine.
+    std::int64_t count_candidates(ParticleState const& particles) const;
 
 private:
     void sort_into_cells(ParticleState& particles);
     void list_border(NeighborList& list);
     void list_pairs(ParticleState const& particles, NeighborList& list);
     void carry_springs(exec::Buffer<Quad> const& old_spring, NeighborList const& list, exec::Buffer<Quad>& spring);
+    template <class Work>
+    void with_candidates(ParticleState const& particles, Work&& work) const;
+    template <class Candidates, class Near>
+    void fill(std::int64_t n, Candidates const& candidates, Near const& near, NeighborList& list);
 
     exec::Execution execution_;
     double skin_;
-    CellGrid grid_;
+    Domain domain_;
+    SizeLevels levels_;
     exec::Buffer<std::int32_t> cell_of_;
     exec::Groups by_cell_;
     NeighborList old_;

@@ -96,6 +96,20 @@ Mistake const mistakes[] = {
     {"InfiniteCorner", "0.5]]", "inf]]",
      "case.toml:40: \"box\" in [[insertion]] is inf (must be a finite number); write e.g. box = [[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]"},
 
+    // periodic domain
+    {"PeriodicAxesMiscounted", "[walls]", "[domain]\nperiodic = [true]\n[walls]",
+     "case.toml:35: \"periodic\" in [domain] is an array (an array of three, true or false is needed); "
+     "write e.g. periodic = [true, true, false]"},
+    {"PeriodicAxisAsNumber", "[walls]", "[domain]\nperiodic = [true, 1, false]\n[walls]",
+     "case.toml:35: \"periodic\" in [domain] is an array (an array of three, true or false is needed); "
+     "write e.g. periodic = [true, true, false]"},
+    {"PeriodicWithoutBox", "[walls]", "[domain]\nperiodic = [false, true, false]\n[walls]",
+     "case.toml:34: box in [domain] is empty along y (that axis is periodic, the box tells its period); "
+     "write e.g. box = [[0.0, 0.0, 0.0], [0.05, 0.05, 0.05]]"},
+    {"PeriodicBoxUpsideDown", "[walls]", "[domain]\nperiodic = [false, false, true]\nbox = [[0, 0, 1], [1, 1, 0]]\n[walls]",
+     "case.toml:36: box in [domain] is empty along z (that axis is periodic, the box tells its period); "
+     "write e.g. box = [[0.0, 0.0, 0.0], [0.05, 0.05, 0.05]]"},
+
     // words
     {"UnknownSchedule", "schedule = \"serial\"", "schedule = \"overlaped\"",
      "case.toml:7: \"schedule\" in [coupling] is \"overlaped\" (must be serial | overlapped); did you mean \"overlapped\"?"},
