@@ -2,6 +2,7 @@
 /// A few spheres in a box: the fixture of tests that follow single contacts.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>

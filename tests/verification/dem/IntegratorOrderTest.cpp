@@ -63,9 +63,9 @@ double order(std::string const& name, double restitution, double friction, doubl
     return observed;
 }
 
-TEST(IntegratorOrder, ElasticImpactIsOfSecondOrder)
+TEST(IntegratorOrder, ElasticImpactIsBetterThanSecondOrder)
 {
-    // Better than 2: what remains is the instant at which the force, overlap^(3/2), sets in: order 5/2.
+    // What remains is the instant at which the force, overlap^(3/2), sets in: order 5/2.
     EXPECT_NEAR(order("elastic", 1, 0, 0), 2.5, 0.2);
     EXPECT_LT(error(1, 0, 0, 30), 2e-4);
 }
