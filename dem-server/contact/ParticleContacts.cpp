@@ -14,11 +14,10 @@ void ParticleContacts::sum_forces(ParticleState& particles, NeighborList& list, 
         {
             auto const compute = [&]<bool one_material, bool one_size>()
             {
-                exec::for_each_uneven(execution_, list.block_count(),
-                                      PairKernel<Law, one_material, one_size>{particles.view(), list.view(),
-                                                                              table.constants.view().data,
-                                                                              material_count_, dt,
-                                                                              border_.view().data});
+                exec::for_each_uneven(
+                    execution_, list.block_count(),
+                    PairKernel<Law, one_material, one_size>{particles.view(), list.view(), table.constants.view().data,
+                                                            material_count_, dt, border_.view().data});
             };
             if (material_count_ > 1)
                 compute.template operator()<false, false>();
