@@ -53,8 +53,7 @@ struct Sjkr
         Real const d = contact.overlap;
         Real const c = contact.per_distance;
         Real const s = 1 + d * c;
-        return (std::numbers::pi / 4) * d * (2 * s - d * c) *
-               (4 * contact.radius_eff * s - 2 * s * d + d * d * c);
+        return (std::numbers::pi / 4) * d * (2 * s - d * c) * (4 * contact.radius_eff * s - 2 * s * d + d * d * c);
     }
 };
 

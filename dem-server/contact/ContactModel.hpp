@@ -75,18 +75,18 @@ private:
     static bool select(std::string_view force, std::string_view rolling, std::string_view cohesion, Work const& work)
     {
         bool found = false;
-        ForceLaws::select(
-            force,
-            [&]<class Force>()
-            {
-                RollingLaws::select(rolling,
-                                    [&]<class Rolling>()
-                                    {
-                                        found = CohesionLaws::select(
-                                            cohesion, [&]<class Cohesion>()
-                                            { work.template operator()<ContactLaw<Force, Rolling, Cohesion>>(); });
-                                    });
-            });
+        ForceLaws::select(force,
+                          [&]<class Force>()
+                          {
+                              RollingLaws::select(
+                                  rolling,
+                                  [&]<class Rolling>()
+                                  {
+                                      found = CohesionLaws::select(
+                                          cohesion, [&]<class Cohesion>()
+                                          { work.template operator()<ContactLaw<Force, Rolling, Cohesion>>(); });
+                                  });
+                          });
         return found;
     }
 

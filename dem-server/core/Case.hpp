@@ -36,11 +36,11 @@ struct CouplingSettings
 /// [dem]
 struct DemSettings
 {
-    double time_step = 0;            ///< upper bound [s]
-    Triple gravity{0, 0, 0};         ///< [m/s^2]
-    int threads = 0;                 ///< 0: all cores
-    std::string backend = "openmp";  ///< serial | openmp
-    double skin = 0.3;               ///< of the neighbour list, in units of the smallest radius [1]
+    double time_step = 0;                       ///< upper bound [s]
+    Triple gravity{0, 0, 0};                    ///< [m/s^2]
+    int threads = 0;                            ///< 0: all cores
+    std::string backend = "openmp";             ///< serial | openmp
+    double skin = 0.3;                          ///< of the neighbour list, in units of the smallest radius [1]
     std::string contact_law = "hertz-mindlin";  ///< one of force_law_names
     std::string rolling_friction = "none";      ///< one of rolling_law_names
     std::string cohesion = "none";              ///< one of cohesion_law_names

@@ -24,7 +24,12 @@ struct PairValue
 };
 
 std::vector<PairValue> const pair_values = {
-    {"normal_stiffness", &DemSettings::contact_law, "contact_law", {"linear"}, "stiffness of the spring [N/m]", "1000.0"},
+    {"normal_stiffness",
+     &DemSettings::contact_law,
+     "contact_law",
+     {"linear"},
+     "stiffness of the spring [N/m]",
+     "1000.0"},
     {"tangential_stiffness_ratio", &DemSettings::contact_law, "contact_law", {"linear"}, "", ""},
     {"rolling_friction",
      &DemSettings::rolling_friction,

@@ -17,7 +17,8 @@ inline constexpr double rayleigh_share_limit = 0.2;
 /// Shortest Rayleigh time of all particles [s], theory.md (D.14); infinity for none.
 double shortest_rayleigh_time(Materials const& materials, ParticleState const& particles);
 
-/// Largest share of the shortest contact that a DEM step may take with the linear law; 1/50 to 1/20 is the common advice.
+/// Largest share of the shortest contact that a DEM step may take with the linear law; 1/50 to 1/20 is the common
+/// advice.
 inline constexpr double contact_share_limit = 0.1;
 
 /// Shortest contact of any two of these particles, or of one and a wall, with the linear law [s], theory.md (D.31);

@@ -53,7 +53,8 @@ Bounce drop(double kn, double e)
 
 TEST(MfixDem01, ContactReboundAndApexAreThoseOfTheDampedOscillator)
 {
-    // Reference values: the oscillator y'' = -g - kn/m (y - r) - eta/m y' integrated by a Runge-Kutta scheme of order 4.
+    // Reference values: the oscillator y'' = -g - kn/m (y - r) - eta/m y' integrated by a Runge-Kutta scheme of
+    // order 4.
     struct
     {
         double kn, e, contact_time, rebound_speed, apex;
@@ -108,7 +109,8 @@ std::vector<double> bounces(double kn, double e, int count)
 
 TEST(MfixDem02, BouncesApproachThoseOfAHardSphere)
 {
-    // h_k = r + (h_0 - r) e^(2k). The deviation comes from the finite contact; MFIX finds 8.5 %, 3.2 % and 1.1 % at most.
+    // h_k = r + (h_0 - r) e^(2k). The deviation comes from the finite contact; MFIX finds 8.5 %, 3.2 % and 1.1 % at
+    // most.
     double worst_before = 1;
     for (auto const& [kn, most] : {std::pair(5e4, 0.085), std::pair(5e5, 0.032), std::pair(5e6, 0.011)})
     {

@@ -63,9 +63,8 @@ TEST(Sjkr, PullOffForceIsTheGreatestAttractionAtRest)
     for (double overlap = 1e-8; overlap < 2e-5; overlap += 1e-8)
     {
         ContactSprings<double> springs{};
-        auto const out =
-            Law::apply<double>(constants, 0,
-                               {.normal = {0, 0, 1}, .overlap = overlap, .radius_eff = radius, .mass_eff = 1}, springs);
+        auto const out = Law::apply<double>(
+            constants, 0, {.normal = {0, 0, 1}, .overlap = overlap, .radius_eff = radius, .mass_eff = 1}, springs);
         strongest = std::max(strongest, -out.force.z);
     }
     double const s = (-3 * c + std::sqrt(9 * c * c + 64 * radius * p * p)) / (8 * p);

@@ -22,7 +22,8 @@ TEST(ConstantTorque, RollingSphereStopsAfterTheDistanceOfTheConstantDeceleration
     double const slowing = 5.0 / 7 * mu_r * ball.gravity, stop_time = v0 / slowing, dt = ball.time_step();
 
     scene.run(static_cast<int>(0.5 * stop_time / dt), dt);
-    // The overlap is 7e-5 of the radius; the friction spring needs a contact time of 1 / 250 of the way to be stretched.
+    // The overlap is 7e-5 of the radius; the friction spring needs a contact time of 1 / 250 of the way to be
+    // stretched.
     EXPECT_NEAR(scene.velocity(0).x(), 0.5 * v0, 1e-3 * v0);
     double farthest = 0;
     for (double t = 0; t < 0.6 * stop_time; t += dt)
