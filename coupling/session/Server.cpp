@@ -115,9 +115,9 @@ Mesh Server::Impl::receive_mesh()
     if (said_goodbye(letter))
         throw CouplingError(Fault::peer,
                             session.peer_name() + " said goodbye before it sent its mesh: " + goodbye_reason);
+    session.read([&] { shared.map_announced(letter.message); });  // first, so that no fault leaves its name behind
     Mesh mesh = session.read([&] { return message::unpack_mesh(letter.message); });
     terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
-    session.read([&] { shared.map_announced(letter.message); });
     return mesh;
 }
 
