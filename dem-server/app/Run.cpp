@@ -118,6 +118,8 @@ public:
         log_.summary().add("settled_height_2z", 2 * centre_of_mass_height(system_.particles(), mesh_, up), "m");
         engine_.map_initial_state();
         server_.accept_mesh(engine_.fields());
+        if (!server_.shared_memory_note().empty())
+            fmt::print(stderr, "gimdem-server: note: {}\n", server_.shared_memory_note());
     }
 
     void couple()
