@@ -12,6 +12,7 @@
 
 #include "gimdem/coupling/Types.hpp"
 #include "message/Arrays.hpp"
+#include "message/SharedArrays.hpp"
 
 namespace gimdem::coupling::message
 {
@@ -101,6 +102,26 @@ bool may_have_arrays(Kind kind)
     return kind == Kind::kMesh || kind == Kind::kFluidState || kind == Kind::kSolidState;
 }
 
+void read_envelope(transport::Frame const& frame, Message& message)
+{
+    if (frame.size() > max_envelope_bytes)
+        refuse("an envelope of " + std::to_string(frame.size()) + " bytes (too large)");
+    if (!read_quietly(message.envelope, frame))
+        refuse("an envelope of " + std::to_string(frame.size()) + " bytes that cannot be read");
+}
+
+/// All that does not depend on the state of the session.
+void check(Message& message)
+{
+    check_version(message.envelope);
+    if (message.kind() == Kind::KIND_NOT_SET) refuse("an envelope without a message in it");
+    if (message.envelope.iteration() != 0)
+        refuse("iteration " + std::to_string(message.envelope.iteration()) + " (protocol 1.0 has only 0)");
+    if (!may_have_arrays(message.kind()) && !message.arrays.empty())
+        refuse(kind_name(message.kind()) + " with array frames (it has none)");
+    check_arrays(message);
+}
+
 }  // namespace
 
 transport::Frames encode(Message message)
@@ -134,21 +155,24 @@ Message decode(transport::Frames frames)
         refuse("a message of more than " + std::to_string(transport::max_frames) + " frames");
 
     Message message;
-    transport::Frame const& first = frames.front();
-    if (first.size() > max_envelope_bytes)
-        refuse("an envelope of " + std::to_string(first.size()) + " bytes (too large)");
-    if (!read_quietly(message.envelope, first))
-        refuse("an envelope of " + std::to_string(first.size()) + " bytes that cannot be read");
-    check_version(message.envelope);
-    if (message.kind() == Kind::KIND_NOT_SET) refuse("an envelope without a message in it");
-    if (message.envelope.iteration() != 0)
-        refuse("iteration " + std::to_string(message.envelope.iteration()) + " (protocol 1.0 has only 0)");
-
+    read_envelope(frames.front(), message);
     for (std::size_t k = 1; k < frames.size(); ++k)
         message.arrays.push_back(std::move(frames[k]));
-    if (!may_have_arrays(message.kind()) && !message.arrays.empty())
-        refuse(kind_name(message.kind()) + " with array frames (it has none)");
-    check_arrays(message);
+    check(message);
+    return message;
+}
+
+Message decode_posted(transport::Frame const& envelope)
+{
+    Message message;
+    read_envelope(envelope, message);
+    auto const count = static_cast<std::size_t>(message.envelope.arrays_size());
+    if (count >= transport::max_frames)
+        refuse("a message of more than " + std::to_string(transport::max_frames) + " frames");
+    message.arrays.resize(count);
+    check(message);
+    if (!may_be_posted(message))
+        refuse(describe(message) + " in a mailbox (only fields in shared memory may be there)");
     return message;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "message/SharedArrays.hpp"
 
+#include <algorithm>
+
 #include "message/Arrays.hpp"
 
 namespace gimdem::coupling::message
@@ -56,11 +58,24 @@ std::size_t array_bytes(Message const& message)
 void offer_shared_memory(Message& message)
 {
     message.envelope.mutable_shared_memory()->set_offered(true);
+    message.envelope.mutable_shared_memory()->set_mailbox(true);
 }
 
 bool offers_shared_memory(Message const& message)
 {
     return message.envelope.shared_memory().offered();
+}
+
+bool offers_mailbox(Message const& message)
+{
+    return message.envelope.shared_memory().mailbox();
+}
+
+bool may_be_posted(Message const& message)
+{
+    auto const& headers = message.envelope.arrays();
+    return (message.kind() == Kind::kFluidState || message.kind() == Kind::kSolidState) &&
+           std::all_of(headers.begin(), headers.end(), [](v1::ArrayHeader const& header) { return header.shared(); });
 }
 
 void announce_segment(Message& message, transport::SegmentNotice const& notice)
