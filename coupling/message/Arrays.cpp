@@ -95,16 +95,16 @@ Span<T const> view_array(Message const& message, std::string const& name, unsign
                          std::optional<std::size_t> rows)
 {
     int const k = find(message.envelope, name);
-    std::string const who = describe(message) + ": array \"" + name + "\"";
-    if (k < 0) refuse(who + " is missing");
+    auto const who = [&] { return describe(message) + ": array \"" + name + "\""; };
+    if (k < 0) refuse(who() + " is missing");
 
     v1::ArrayHeader const& header = message.envelope.arrays(k);
-    if (header.type() != element_type<T>) refuse(who + " has another element type than docs/protocol.md tells");
+    if (header.type() != element_type<T>) refuse(who() + " has another element type than docs/protocol.md tells");
     if (header.components() != components)
-        refuse(who + " has " + std::to_string(header.components()) + " components instead of " +
+        refuse(who() + " has " + std::to_string(header.components()) + " components instead of " +
                std::to_string(components));
     if (rows && header.count() != *rows)
-        refuse(who + " has " + std::to_string(header.count()) + " rows instead of " + std::to_string(*rows));
+        refuse(who() + " has " + std::to_string(header.count()) + " rows instead of " + std::to_string(*rows));
 
     transport::Frame const& frame = message.arrays[static_cast<std::size_t>(k)];
     return {static_cast<T const*>(frame.data()), frame.size() / sizeof(T)};

@@ -67,9 +67,10 @@ void check_size(FieldEntry<Fields> const& entry, Span<double const> values, std:
 }
 
 template <class Fields>
-void copy_checked(FieldEntry<Fields> const& entry, Span<double const> values, void* to)
+void copy_checked(FieldEntry<Fields> const& entry, Span<double const> values, transport::Frame& frame, bool is_shared)
 {
-    if (copy_finite(values, static_cast<double*>(to))) return;
+    auto* const to = static_cast<double*>(frame.data());
+    if (is_shared ? stream_finite(values, to) : copy_finite(values, to)) return;
     throw CouplingError(Fault::user, not_finite_text(entry, values, *first_not_finite(values)) +
                                          " (the solution has diverged); try a smaller time step");
 }
@@ -98,9 +99,10 @@ void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields c
         Span<double const> const values = fields.*entry.values;
         check_size(entry, values, cell_count);
         transport::Frame frame = memory.make(values.size() * sizeof(double));
-        copy_checked(entry, values, frame.data());
+        auto const offset = memory.offset_of(frame);
+        copy_checked(entry, values, frame, offset.has_value());
         append_array(message, entry.name, entry.components, std::move(frame));
-        if (auto const offset = memory.offset_of(message.arrays.back())) mark_shared(message, *offset);
+        if (offset) mark_shared(message, *offset);
     }
 }
 

@@ -18,11 +18,14 @@ std::size_t byte_count(v1::ArrayHeader const& header)
 void attach(v1::ArrayHeader const& header, transport::Frame& frame, transport::Mapping const& memory)
 {
     std::size_t const bytes = byte_count(header);
-    std::string const who = "array \"" + header.name() + "\" of " + std::to_string(bytes) + " bytes at offset " +
-                            std::to_string(header.offset()) + " of the shared memory";
+    auto const who = [&]
+    {
+        return "array \"" + header.name() + "\" of " + std::to_string(bytes) + " bytes at offset " +
+               std::to_string(header.offset()) + " of the shared memory";
+    };
     if (header.offset() > memory.bytes() || bytes > memory.bytes() - header.offset())
-        refuse(who + " lies out of bounds (the segment has " + std::to_string(memory.bytes()) + " bytes)");
-    if (header.offset() % element_size(header.type()) != 0) refuse(who + " is not aligned to its numbers");
+        refuse(who() + " lies out of bounds (the segment has " + std::to_string(memory.bytes()) + " bytes)");
+    if (header.offset() % element_size(header.type()) != 0) refuse(who() + " is not aligned to its numbers");
     frame = transport::Frame(
         memory.data() + header.offset(), bytes, [](void*, void*) {}, nullptr);
 }

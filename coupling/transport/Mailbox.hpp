@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// The last bytes of a shared segment: room for one envelope, and a bell. A message whose arrays lie in the segment needs
-/// no socket, and so none of the four threads between the two programs has to wake up. docs/protocol.md, Mailbox.
+/// The last bytes of a shared segment: room for one envelope, and a bell. A message whose arrays lie in the segment
+/// needs no socket, and so none of the four threads between the two programs has to wake up. docs/protocol.md, Mailbox.
 #pragma once
 
 #include <cstddef>
