@@ -35,7 +35,7 @@ public:
     /// Does it offer to post envelopes, too?
     explicit RawSharedClient(bool posts = false)
         : posts_(posts),
-           server_(std::make_unique<Server>(server_options(unused_ipc_endpoint()))),
+          server_(std::make_unique<Server>(server_options(unused_ipc_endpoint()))),
           own(transport::make_segment(1 << 20).segment),
           peer(RawPeer::client(server_->endpoint()))
     {
