@@ -102,7 +102,7 @@ public:
           execution_(execution_for(settings, schedule_)),
           mesh_(take_mesh(server)),
           walls_(mesh_, settings.walls.also,
-                 largest_radius(particles) + settings.dem.skin * smallest_radius(particles)),
+                 largest_radius(particles) + settings.dem.skin * smallest_radius(particles), settings.wall),
           system_(settings, execution_, materials, walls_, std::move(particles)),
           folder_(folder),
           log_(settings, folder, mesh_, system_, client, schedule_),

@@ -67,6 +67,43 @@ struct WallSettings
     std::vector<std::string> also;  ///< patches that stop particles although the fluid passes
 };
 
+/// [wall.rotation]: turns about an axis through origin
+struct WallRotationSettings
+{
+    Triple axis{};     ///< direction, of any length
+    Triple origin{};   ///< a point of the axis [m]
+    double speed = 0;  ///< right-handed about axis [rad/s]
+};
+
+/// [wall.vibration]: displacement amplitude * direction * sin(2 pi frequency t + phase)
+struct WallVibrationSettings
+{
+    Triple direction{};    ///< of any length
+    double amplitude = 0;  ///< [m]
+    double frequency = 0;  ///< [Hz]
+    double phase = 0;      ///< [rad]
+};
+
+/// [[wall]]: one beside those of the client's mesh
+struct WallItemSettings
+{
+    std::string name;
+    std::string shape = "plane";  ///< plane | cylinder | stl
+    std::string material;         ///< empty: that of [walls]
+    Triple point{};               ///< of a plane; on a cylinder's axis, where it begins if it has a length [m]
+    Triple normal{};              ///< plane: towards the particles, of any length
+    Triple axis{};                ///< cylinder: direction, of any length
+    double radius = 0;            ///< cylinder [m]
+    double length = 0;            ///< cylinder [m]; 0: infinite
+    bool inside = false;          ///< particles are inside the cylinder or the closed surface
+    std::filesystem::path file;   ///< stl; relative to the case file, here absolute
+    double scale = 1;             ///< stl: metres per unit of the file
+    bool open = false;            ///< stl: a sheet with rims, touched from both sides
+    Triple velocity{0, 0, 0};     ///< [m/s]
+    std::optional<WallRotationSettings> rotation;
+    std::optional<WallVibrationSettings> vibration;
+};
+
 /// [[insertion]]
 struct InsertionSettings
 {
@@ -134,6 +171,7 @@ struct Case
     std::vector<MaterialSettings> materials;
     std::vector<ContactSettings> contacts;
     WallSettings walls;
+    std::vector<WallItemSettings> wall;
     std::vector<InsertionSettings> insertion;
     std::optional<SettleSettings> settle;
     FluidForceSettings fluid_forces;

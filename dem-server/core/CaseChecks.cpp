@@ -110,6 +110,8 @@ void check_pairs_in_use(Case const& input, Document const& document)
     for (auto const& first : input.insertion)
     {
         require(first.material, input.walls.material);
+        for (auto const& wall : input.wall)
+            if (!wall.material.empty()) require(first.material, wall.material);
         for (auto const& second : input.insertion)
             require(first.material, second.material);
     }
@@ -153,6 +155,10 @@ void check_case(Case const& input, Document const& document)
     check_material_names(input, document);
     check_contacts(input, document);
     check_material_exists(input.walls.material, "walls.material", input, document);
+    for (std::size_t i = 0; i < input.wall.size(); ++i)
+        if (!input.wall[i].material.empty())
+            check_material_exists(input.wall[i].material, entry("wall", i, "material"), input, document);
+    check_walls(input, document);
     check_insertions(input, document);
     check_pairs_in_use(input, document);
     check_output(input.output, document);

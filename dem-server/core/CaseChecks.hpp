@@ -32,6 +32,10 @@ std::string entry(std::string const& list, std::size_t index, std::string const&
 /// effect, or would insert overlapping particles.
 void check_insertion(InsertionSettings const& insertion, std::size_t index, Document const& document);
 
+/// Throw UserError where [[wall]] misses what its shape needs, has what would be without effect, or has a direction of
+/// no length.
+void check_walls(Case const& input, Document const& document);
+
 /// Throw UserError where settings contradict each other or name what does not exist.
 void check_case(Case const& input, Document const& document);
 

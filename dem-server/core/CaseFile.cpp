@@ -35,6 +35,9 @@ void resolve_paths(Case& input)
     for (auto& insertion : input.insertion)
         if (!insertion.file.empty() && insertion.file.is_relative())
             insertion.file = std::filesystem::absolute(input.file.parent_path() / insertion.file);
+    for (auto& wall : input.wall)
+        if (!wall.file.empty() && wall.file.is_relative())
+            wall.file = std::filesystem::absolute(input.file.parent_path() / wall.file);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ Fields<Case> const& settings_of(Case const&)
         required("materials",    &Case::materials,    "what particles and walls are made of"),
         required("contacts",     &Case::contacts,     "how two materials touch"),
         required("walls",        &Case::walls,        "what bounds the particles"),
+        optional("wall",         &Case::wall,         "a wall beside those of the mesh"),
         required("insertion",    &Case::insertion,    "which particles there are at the start"),
         optional("settle",       &Case::settle,       "particles fall and come to rest before the fluid starts"),
         optional("fluid_forces", &Case::fluid_forces, "what the fluid does to a particle"),

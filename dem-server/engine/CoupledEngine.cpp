@@ -85,6 +85,7 @@ StepReport CoupledEngine::advance(coupling::Step const& step, coupling::FluidFie
     report.dem_steps = std::max<std::int64_t>(1, std::llround(std::ceil(step.dt / settings_.dem.time_step - 1e-9)));
     forces_.load(fluid, mesh_.cell_count());
     system_.begin_coupling_step(&on_particles_);
+    system_.let_walls_move(true);
     report.pressure_force = constant(system_.steady_fluid_force());
     for (std::int64_t k = 0; k < report.dem_steps; ++k)
         system_.step(step.dt / static_cast<double>(report.dem_steps));

@@ -58,6 +58,7 @@ void DemSystem::step(double dt)
 {
     half_kick(dt / 2);
     drift(dt);
+    if (walls_move_) wall_contacts_.move_to(wall_contacts_.time() + dt);
     update_neighbors();
     sum_contact_forces(dt);
     update_fluid_loads();
@@ -78,7 +79,7 @@ void DemSystem::drift(double dt)
 
 void DemSystem::update_neighbors()
 {
-    if (!search_.is_stale(particles_, neighbors_)) return;
+    if (!search_.is_stale(particles_, neighbors_) && !wall_contacts_.is_stale(search_.skin())) return;
     auto const order = search_.build(particles_, neighbors_);
     wall_contacts_.build(particles_, search_.skin(), order);
     permute(impulses_, order);

@@ -50,6 +50,9 @@ public:
     /// One step of velocity Verlet, theory.md (D.13). dt [s].
     void step(double dt);
 
+    /// Whether prescribed wall motion goes on with the steps; until told so walls stand where they are at time 0.
+    void let_walls_move(bool move) { walls_move_ = move; }
+
     ParticleState& particles() { return particles_; }
     ParticleState const& particles() const { return particles_; }
     NeighborList& neighbors() { return neighbors_; }
@@ -80,6 +83,7 @@ private:
     NeighborList neighbors_;
     ParticleContacts particle_contacts_;
     WallContacts wall_contacts_;
+    bool walls_move_ = false;
     FluidOnParticles const* fluid_ = nullptr;
     exec::Buffer<FluidLoad> loads_;
     exec::Buffer<Impulse> impulses_;

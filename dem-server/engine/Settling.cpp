@@ -108,14 +108,9 @@ std::filesystem::path settled_bed_file(Case const& settings, WallGeometry const&
             std::ifstream in(settings.file.parent_path() / insertion.file, std::ios::binary);
             text.append(std::istreambuf_iterator<char>(in), {});
         }
+    text += walls.description();
     // Rounded, so that meshes of the same vessel share a bed.
     auto const add_rounded = [&](double value) { text += fmt::format("{} ", std::round(value * 1e8) + 0.0); };
-    for (std::int64_t p = 0; p < walls.plane_count(); ++p)
-    {
-        Quad const plane = walls.view().plane_normal[p];
-        for (double const value : {plane.x, plane.y, plane.z, plane.w})
-            add_rounded(value);
-    }
     for (int axis = 0; axis < 3; ++axis)
     {
         add_rounded(mesh.low()[axis]);
@@ -132,6 +127,7 @@ void write_state(std::filesystem::path const& file, std::string const& kind, Dem
     std::filesystem::create_directories(file.parent_path());
     output::SnapshotWriter writer(file, kind);
     writer.set("time", time);
+    writer.set("wall_time", system.walls().time());
     writer.add("position", numbers(p.position), 4);
     writer.add("velocity", numbers(p.velocity), 4);
     writer.add("angular_velocity", numbers(p.angular_velocity), 4);
@@ -165,6 +161,7 @@ void read_state(std::filesystem::path const& file, std::string const& kind, DemS
     read_into(reader.int32s("pair_second"), pairs.second);
     read_into(reader.doubles("pair_spring"), pairs.displacement);
     pairs.built_at.resize(0);  // stale: the next step builds a list and carries the springs over
+    system.walls().move_to(reader.has("wall_time") ? reader.number("wall_time") : 0);
     WallPairs& walls = system.walls().pairs();
     read_into(reader.int32s("wall_offsets"), walls.offsets);
     read_into(reader.int32s("wall_plane"), walls.plane);

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "walls/WallContacts.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "contact/HertzMindlin.hpp"
-#include "core/Error.hpp"
 #include "exec/ForEach.hpp"
-#include "exec/Sort.hpp"
-#include "walls/Triangle.hpp"
 
 namespace gimdem
 {
@@ -17,185 +10,15 @@ namespace gimdem
 namespace
 {
 
-/// Closest point of one plane's triangles near x.
-struct PlanePoint
-{
-    Vec3 point;
-    double distance;
-    bool interior;  ///< inside the plane, not on its rim
-};
-
-/// The run of triangles of one plane in the list of a grid cell, from `begin`.
-struct PlaneRun
-{
-    std::int32_t plane, begin, end;
-};
-
-/// Looks at the triangles around a point, one plane after the other.
-struct NearbyPlanes
-{
-    WallView walls;
-
-    /// Calls visit(run) for every plane that has triangles within reach of x.
-    template <class Visit>
-    GIMDEM_HD void operator()(Vec3 const& x, Visit&& visit) const
-    {
-        std::int32_t const cell = walls.grid.cell_of(x);
-        std::int32_t const end = walls.grid_offsets[cell + 1];
-        for (std::int32_t k = walls.grid_offsets[cell]; k < end;)
-        {
-            PlaneRun run{triangle(k).plane, k, k};
-            while (run.end < end && triangle(run.end).plane == run.plane)
-                ++run.end;
-            visit(run);
-            k = run.end;
-        }
-    }
-
-    GIMDEM_HD WallTriangle const& triangle(std::int32_t k) const { return walls.triangles[walls.grid_triangles[k]]; }
-
-    GIMDEM_HD PlanePoint closest(PlaneRun const& run, Vec3 const& x) const
-    {
-        PlanePoint best{x, 1e300, false};
-        for (std::int32_t k = run.begin; k < run.end; ++k)
-        {
-            WallTriangle const& t = triangle(k);
-            ClosestPoint const here = closest_on_triangle(t.a.xyz(), t.b.xyz(), t.c.xyz(), x);
-            double const distance = (here.point - x).norm();
-            if (here.interior) return {here.point, distance, true};
-            if (distance < best.distance) best = {here.point, distance, false};
-        }
-        // A point on a seam between triangles is inside the plane, unless the seam is its rim.
-        best.interior = distance_to_rim(run, best.point) > 1e-9 * best.distance;
-        return best;
-    }
-
-    GIMDEM_HD double distance_to_rim(PlaneRun const& run, Vec3 const& point) const
-    {
-        double least = 1e300;
-        for (std::int32_t k = run.begin; k < run.end; ++k)
-        {
-            WallTriangle const& t = triangle(k);
-            if (!t.rim) continue;
-            double const distance = (closest_on_segment(t.a.xyz(), t.b.xyz(), point) - point).norm();
-            if (distance < least) least = distance;
-        }
-        return least;
-    }
-};
-
-/// Finds the planes near a particle: first counts them, then, with `plane` set, lists them.
-struct PairLister
-{
-    NearbyPlanes nearby;
-    Quad const* position;
-    double skin;
-    std::int32_t* offsets;  ///< counts while counting
-    std::uint64_t* seen;    ///< of each particle: two bits for each of its first runs, near and whole
-    std::int32_t* plane;
-    std::uint8_t* whole;
-
-    static constexpr int most_runs = 32;
-
-    GIMDEM_HD void operator()(std::int64_t i) const
-    {
-        if (plane == nullptr)
-            count(i);
-        else if (offsets[i] != offsets[i + 1])
-            list(i);
-    }
-
-private:
-    static constexpr std::uint64_t is_near = 1, is_whole = 2;
-
-    GIMDEM_HD void count(std::int64_t i) const
-    {
-        Quad const x = position[i];
-        std::uint64_t bits = 0;
-        std::int32_t found = 0;
-        int r = 0;
-        nearby(x.xyz(),
-               [&](PlaneRun const& run)
-               {
-                   std::uint64_t const here = look(run, x);
-                   found += (here & is_near) != 0;
-                   if (r < most_runs) bits |= here << (2 * r);
-                   ++r;
-               });
-        seen[i] = bits;
-        offsets[i] = found;
-    }
-
-    GIMDEM_HD void list(std::int64_t i) const
-    {
-        Quad const x = position[i];
-        std::int32_t k = offsets[i];
-        int r = 0;
-        nearby(x.xyz(),
-               [&](PlaneRun const& run)
-               {
-                   std::uint64_t const here = r < most_runs ? seen[i] >> (2 * r) : look(run, x);
-                   ++r;
-                   if ((here & is_near) == 0) return;
-                   plane[k] = run.plane;
-                   whole[k++] = (here & is_whole) != 0;
-               });
-    }
-
-    GIMDEM_HD std::uint64_t look(PlaneRun const& run, Quad const& x) const
-    {
-        double const reach = x.w + skin;
-        Quad const p = nearby.walls.plane_normal[run.plane];
-        double const height = p.xyz().dot(x.xyz()) - p.w;
-        if (height > reach || height < -reach) return 0;
-        PlanePoint const at = nearby.closest(run, x.xyz());
-        if (at.distance > reach) return 0;
-        return is_near | (at.interior && nearby.distance_to_rim(run, at.point) > 2 * skin ? is_whole : 0);
-    }
-};
-
-struct WallSpringCarrier
-{
-    std::int32_t const* order;  ///< null: particles kept their places
-    std::int32_t const* offsets;
-    std::int32_t const* plane;
-    std::int32_t const* old_offsets;
-    std::int32_t const* old_plane;
-    Quad const* old_displacement;
-    Quad* displacement;
-
-    GIMDEM_HD void operator()(std::int64_t i) const
-    {
-        std::int64_t const old = order == nullptr ? i : order[i];
-        for (std::int32_t k = offsets[i]; k < offsets[i + 1]; ++k)
-        {
-            displacement[k] = {0, 0, 0, 0};
-            for (std::int32_t m = old_offsets[old]; m < old_offsets[old + 1]; ++m)
-                if (old_plane[m] == plane[k]) displacement[k] = old_displacement[m];
-        }
-    }
-};
-
-/// One touching plane of a particle.
-struct Touch
-{
-    std::int32_t pair;
-    bool interior;
-    Vec3 point;
-    Vec3 normal;  ///< towards the particle
-    double overlap;
-};
-
-/// All walls of one particle. An edge or corner that two planes share is touched once: planes touched in their interior
-/// come first, and a rim point that an earlier plane has already is dropped.
+/// All walls of one particle.
 struct WallKernel
 {
     ParticleView particles;
-    NearbyPlanes nearby;
+    WallTouches walls;
     std::int32_t const* offsets;
-    std::int32_t const* plane;
-    std::uint8_t const* whole;
-    ContactConstants const* constants;  ///< row of the wall's material
+    Touch* places;                      ///< shape=(n_pairs,), or null where no particle has many pairs
+    ContactConstants const* constants;  ///< of all pairs of materials
+    std::int32_t const* first_pair;     ///< of each body: the row of its material
     double dt;
     Quad* displacement;
     Quad* wall_force;
@@ -203,84 +26,77 @@ struct WallKernel
     GIMDEM_HD void operator()(std::int64_t i) const
     {
         wall_force[i] = {0, 0, 0, 0};
-        if (offsets[i] == offsets[i + 1]) return;
-        Touch touches[WallContacts::most_planes];
-        int const count = find_touches(i, touches);
+        std::int32_t const begin = offsets[i], end = offsets[i + 1];
+        if (begin == end) return;
+        Touch at_hand[WallTouches::most_at_hand];
+        Touch* const touches = end - begin > WallTouches::most_at_hand ? places + begin : at_hand;
+        Quad const x = particles.position[i];
+        std::int32_t const count = walls.find(x, begin, end, touches);
+        walls.weed(x.w, touches, count);
+        move_springs(begin, end, touches, count);
 
         Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
         int kept = 0;
-        for (int pass = 0; pass < 2; ++pass)
-            for (int t = 0; t < count; ++t)
-            {
-                if (touches[t].interior != (pass == 0)) continue;
-                if (pass == 1 && is_shared(touches, count, t)) continue;
-                add(i, touches[t], force, torque);
-                ++kept;
-            }
+        for (std::int32_t t = 0; t < count; ++t)
+        {
+            if (!touches[t].counts) continue;
+            add(i, touches[t], force, torque);
+            ++kept;
+        }
         particles.force[i].set_xyz(particles.force[i].xyz() + force);
         particles.torque[i].set_xyz(particles.torque[i].xyz() + torque);
         wall_force[i] = Quad::of(force, kept);
     }
 
 private:
-    GIMDEM_HD int find_touches(std::int64_t i, Touch* touches) const
+    /// A contact that comes over from another plane of its patch, or from the same edge, brings its spring along;
+    /// planes that are no longer touched lose theirs.
+    GIMDEM_HD void move_springs(std::int32_t begin, std::int32_t end, Touch const* touches, std::int32_t count) const
     {
-        Quad const x = particles.position[i];
-        int count = 0;
-        bool needs_triangles = false;
-        for (std::int32_t k = offsets[i]; k < offsets[i + 1]; ++k)
+        for (std::int32_t t = 0; t < count; ++t)
+            if (touches[t].counts) displacement[touches[t].pair].w = 1;
+        for (std::int32_t t = 0; t < count; ++t)
         {
-            needs_triangles |= whole[k] == 0;
-            Quad const p = nearby.walls.plane_normal[plane[k]];
-            double const height = p.xyz().dot(x.xyz()) - p.w;
-            if (whole[k] != 0 && height < x.w)
-                touches[count++] = {k, true, x.xyz() - height * p.xyz(), p.xyz(), x.w - height};
+            std::int32_t const k = touches[t].pair;
+            if (!touches[t].counts || !displacement[k].xyz().isZero(0)) continue;
+            std::int32_t const from = giver(begin, end, touches, count, t);
+            if (from >= 0) displacement[k].set_xyz(displacement[from].xyz());
+        }
+        for (std::int32_t k = begin; k < end; ++k)
+            if (displacement[k].w == 0)
+                displacement[k] = {0, 0, 0, 0};
             else
-                displacement[k].w = 1;  // not touching so far: marks a spring to be dropped
-        }
-        if (needs_triangles)
-            nearby(x.xyz(),
-                   [&](PlaneRun const& run)
-                   {
-                       for (std::int32_t k = offsets[i]; k < offsets[i + 1]; ++k)
-                           if (plane[k] == run.plane && whole[k] == 0) touch_triangles(run, k, x, touches, count);
-                   });
-        for (std::int32_t k = offsets[i]; k < offsets[i + 1]; ++k)
-            if (displacement[k].w != 0) displacement[k] = {0, 0, 0, 0};
-        return count;
+                displacement[k].w = 0;
     }
 
-    GIMDEM_HD void touch_triangles(PlaneRun const& run, std::int32_t k, Quad const& x, Touch* touches, int& count) const
+    /// Pair whose spring touch t takes over: one that touches no more, most nearly in the same plane; or -1.
+    GIMDEM_HD std::int32_t giver(std::int32_t begin, std::int32_t end, Touch const* touches, std::int32_t count,
+                                 std::int32_t t) const
     {
-        PlanePoint const at = nearby.closest(run, x.xyz());
-        Vec3 const into = nearby.walls.plane_normal[run.plane].xyz();
-        double const side = (x.xyz() - at.point).dot(into);
-        if (at.interior)
+        WallSurface const* const surfaces = walls.nearby.walls.surfaces;
+        WallSurface const& own = surfaces[touches[t].surface];
+        std::int32_t best = -1;
+        double best_cosine = 0.5;  // two smooth seams at most lie between
+        for (std::int32_t k = begin; k < end; ++k)
         {
-            if (at.distance >= x.w && side > 0) return;
-            if (side < -x.w) return;
-            touches[count++] = {k, true, at.point, into, x.w - side};
+            if (displacement[k].w != 0 || displacement[k].xyz().isZero(0)) continue;
+            WallSurface const& other = surfaces[walls.plane[k]];
+            double cosine = own.normal.xyz().dot(other.normal.xyz());
+            if (own.two_sided) cosine = std::abs(cosine);
+            if (other.patch != own.patch) cosine = shares_point(touches, count, t, k) ? 1 : 0;
+            if (cosine <= best_cosine) continue;
+            best = k;
+            best_cosine = cosine;
         }
-        else
-        {
-            if (at.distance >= x.w || at.distance <= 0) return;
-            touches[count++] = {k, false, at.point, (x.xyz() - at.point) / at.distance, x.w - at.distance};
-        }
-        displacement[k].w = 0;
+        return best;
     }
 
-    GIMDEM_HD bool is_shared(Touch const* touches, int count, int t) const
+    /// Whether pair k touches the particle too, as a part of touch t.
+    GIMDEM_HD bool shares_point(Touch const* touches, std::int32_t count, std::int32_t t, std::int32_t k) const
     {
-        for (int other = 0; other < count; ++other)
-        {
-            if (other == t || (!touches[other].interior && other > t)) continue;
-            double const near = 1e-6 * touches[t].overlap + 1e-12;
-            if ((touches[other].point - touches[t].point).squaredNorm() <= near * near)
-            {
-                displacement[touches[t].pair] = {0, 0, 0, 0};
-                return true;
-            }
-        }
+        for (std::int32_t u = 0; u < count; ++u)
+            if (touches[u].pair == k)
+                return (touches[u].point.vec() - touches[t].point.vec()).norm() <= 1e-3 * touches[t].overlap;
         return false;
     }
 
@@ -289,58 +105,39 @@ private:
         Quad const v = particles.velocity[i];
         double const radius = particles.position[i].w;
         double const lever = radius - touch.overlap / 2;
-        ContactGeometry<double> const contact{
-            .normal = vector3(touch.normal),
-            .overlap = touch.overlap,
-            .velocity = vector3(v.xyz() - lever * particles.angular_velocity[i].xyz().cross(touch.normal)),
-            .radius_eff = radius,
-            .mass_eff = 1 / v.w};
-        HertzMindlin<double> const law{constants[particles.material[i]], dt};
+        std::int32_t const body = walls.nearby.walls.surfaces[touch.surface].body;
+        Vec3 const normal = touch.normal.vec();
+        Vec3 velocity = v.xyz() - lever * particles.angular_velocity[i].xyz().cross(normal);
+        if (walls.nearby.walls.bodies[body].moves) velocity -= walls.nearby.poses[body].velocity_at(touch.point.vec());
+        ContactGeometry<double> const contact{.normal = vector3(normal),
+                                              .overlap = touch.overlap,
+                                              .velocity = vector3(velocity),
+                                              .radius_eff = radius,
+                                              .mass_eff = 1 / v.w};
+        HertzMindlin<double> const law{constants[first_pair[body] + particles.material[i]], dt};
         Vector3<double> spring = vector3(displacement[touch.pair].xyz());
         ContactForce<double> const result = law(contact, spring);
         displacement[touch.pair] = {spring.x, spring.y, spring.z, 0};
         force += vec3(result.force);
-        torque -= lever * touch.normal.cross(vec3(result.tangential));
+        torque -= lever * normal.cross(vec3(result.tangential));
     }
 };
 
 }  // namespace
 
-void WallContacts::build(ParticleState const& particles, double skin, std::span<std::int32_t const> order)
+WallContacts::WallContacts(exec::Execution execution, Materials const& materials, int wall_material,
+                           WallGeometry const& walls)
+    : execution_(execution), constants_(materials.table()), walls_(walls)
 {
-    std::int64_t const n = particles.count();
-    bool const has_springs = pairs_.offsets.size() == n + 1;
-    swap(old_.offsets, pairs_.offsets);
-    swap(old_.plane, pairs_.plane);
-    swap(old_.displacement, pairs_.displacement);
-
-    pairs_.offsets.resize(n + 1);
-    seen_.resize(n);
-    PairLister lister{
-        {walls_.view()}, particles.position.view().data, skin, pairs_.offsets.view().data, seen_.view().data, nullptr,
-        nullptr};
-    exec::for_each(execution_, n, lister);
-    for (std::int64_t i = 0; i < n; ++i)
-        if (pairs_.offsets[i] > most_planes)
-            throw UserError(
-                fmt::format("particle {} is near {} wall planes (at most {} are held); the walls' faces are "
-                            "far smaller than the particle: coarsen the mesh at the walls",
-                            particles.id[i], pairs_.offsets[i], most_planes));
-    std::int64_t const count = exec::exclusive_scan(pairs_.offsets.host());
-    pairs_.plane.resize(count);
-    pairs_.whole.resize(count);
-    pairs_.displacement.resize(count);
-    lister.plane = pairs_.plane.view().data;
-    lister.whole = pairs_.whole.view().data;
-    exec::for_each(execution_, n, lister);
-
-    if (has_springs)
-        exec::for_each(execution_, n,
-                       WallSpringCarrier{order.empty() ? nullptr : order.data(), pairs_.offsets.view().data,
-                                         pairs_.plane.view().data, old_.offsets.view().data, old_.plane.view().data,
-                                         old_.displacement.view().data, pairs_.displacement.view().data});
-    else
-        pairs_.displacement.fill({0, 0, 0, 0});
+    poses_.resize(walls.body_count());
+    first_pair_.resize(walls.body_count());
+    for (std::int32_t b = 0; b < walls.body_count(); ++b)
+    {
+        std::string const& name = walls.material(b);
+        first_pair_[b] = (name.empty() ? wall_material : materials.number_of(name)) * materials.count();
+        poses_[b] = walls.motion(b).at(0);
+        some_wall_moves_ |= walls.motion(b).moves();
+    }
 }
 
 void WallContacts::add_forces(ParticleState& particles, double dt)
@@ -348,11 +145,11 @@ void WallContacts::add_forces(ParticleState& particles, double dt)
     wall_force_.resize(particles.count());
     exec::for_each(execution_, particles.count(),
                    WallKernel{particles.view(),
-                              {walls_.view()},
+                              {nearby(), pairs_.plane.view().data, pairs_.whole.view().data},
                               pairs_.offsets.view().data,
-                              pairs_.plane.view().data,
-                              pairs_.whole.view().data,
-                              constants_.data + wall_material_ * material_count_,
+                              touches_.view().data,
+                              constants_.data,
+                              first_pair_.view().data,
                               dt,
                               pairs_.displacement.view().data,
                               wall_force_.view().data});

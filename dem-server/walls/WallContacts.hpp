@@ -10,6 +10,7 @@
 #include "particles/Materials.hpp"
 #include "particles/ParticleState.hpp"
 #include "walls/WallGeometry.hpp"
+#include "walls/WallTouches.hpp"
 
 namespace gimdem
 {
@@ -26,17 +27,18 @@ struct WallPairs
 class WallContacts
 {
 public:
-    WallContacts(exec::Execution execution, Materials const& materials, int wall_material, WallGeometry const& walls)
-        : execution_(execution),
-          constants_(materials.table()),
-          material_count_(materials.count()),
-          wall_material_(wall_material),
-          walls_(walls)
-    {
-    }
+    /// `wall_material`: of walls that name none.
+    WallContacts(exec::Execution execution, Materials const& materials, int wall_material, WallGeometry const& walls);
+
+    /// Puts the walls where they are at `time` [s].
+    void move_to(double time);
+    double time() const { return time_; }  ///< at which the walls stand [s]
+
+    /// True when a wall has moved so far since the list was built that it may miss a contact: more than skin / 2.
+    bool is_stale(double skin) const;
 
     /// Lists the pairs closer than radius + skin [m]. `order` is the permutation since the last list (empty: none):
-    /// springs move along. Throws UserError where one particle is near more planes than a kernel can hold.
+    /// springs move along.
     void build(ParticleState const& particles, double skin, std::span<std::int32_t const> order);
 
     /// Adds the walls' forces and torques; advances the tangential springs by dt [s].
@@ -48,16 +50,21 @@ public:
     /// Force of the walls on each particle in the last add_forces [N]; w: number of contacts.
     exec::Buffer<Quad> const& force_on_particles() const { return wall_force_; }
 
-    static constexpr int most_planes = 16;  ///< near one particle
-
 private:
+    NearbyWalls nearby() const { return {walls_.view(), poses_.view().data}; }
+    void remember_build(ParticleState const& particles, double skin);
+
     exec::Execution execution_;
     exec::View<ContactConstants const> constants_;
-    std::int32_t material_count_;
-    std::int32_t wall_material_;
     WallGeometry const& walls_;
+    double time_ = 0;
+    bool some_wall_moves_ = false;
+    exec::Buffer<WallPose> poses_, built_at_;  ///< of each body, now and when the list was built
+    Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();  ///< around all particles and what they reached then [m]
+    exec::Buffer<std::int32_t> first_pair_;  ///< of each body: row of its material in the table of pairs
     WallPairs pairs_, old_;
     exec::Buffer<std::uint64_t> seen_;  ///< what the first look at the walls found, for the second
+    exec::Buffer<Touch> touches_;       ///< room for the touches of particles with many pairs
     exec::Buffer<Quad> wall_force_;
 };
 
