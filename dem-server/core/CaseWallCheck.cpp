@@ -67,8 +67,8 @@ private:
     void require(std::string const& key, std::string const& purpose, std::string const& example) const
     {
         if (!document_.has(path(key)))
-            throw UserError(at(key) + ": \"" + key + '"' + of_wall() + " is missing (" + purpose + "); add e.g. " + key +
-                            " = " + example);
+            throw UserError(at(key) + ": \"" + key + '"' + of_wall() + " is missing (" + purpose + "); add e.g. " +
+                            key + " = " + example);
     }
 
     void refuse(std::vector<std::string> const& keys) const

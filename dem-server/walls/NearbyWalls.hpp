@@ -57,8 +57,7 @@ struct NearbyWalls
     GIMDEM_HD SurfaceRun run_of(std::int32_t surface, Vec3 const& y) const
     {
         WallSurface const& s = walls.surfaces[surface];
-        if (s.triangle_count <= few_triangles)
-            return {surface, s.triangle, s.triangle + s.triangle_count, true};
+        if (s.triangle_count <= few_triangles) return {surface, s.triangle, s.triangle + s.triangle_count, true};
         WallBody const& body = walls.bodies[s.body];
         std::int32_t const* const offsets = walls.grid_offsets + body.grid_begin + body.grid.cell_of(y);
         std::int32_t const begin = first_of(surface, offsets[0], offsets[1]);

@@ -23,9 +23,10 @@ namespace
 std::string content_of(std::filesystem::path const& file)
 {
     if (!std::filesystem::is_regular_file(file))
-        throw UserError(fmt::format("{} does not exist (it holds the triangles of a wall); give its path in [[wall]] "
-                                    "file, relative to the case file",
-                                    file.string()));
+        throw UserError(
+            fmt::format("{} does not exist (it holds the triangles of a wall); give its path in [[wall]] "
+                        "file, relative to the case file",
+                        file.string()));
     std::ifstream in(file, std::ios::binary);
     std::string content(std::istreambuf_iterator<char>(in), {});
     if (in.bad()) throw UserError(fmt::format("{} cannot be read; check its permissions", file.string()));

@@ -32,15 +32,17 @@ void check_triangles(SurfaceMesh const& surface, std::string const& source)
         for (int corner = 0; corner < 3; ++corner)
         {
             if (!surface.point(t, corner).allFinite())
-                throw UserError(fmt::format("{}: triangle {} has a corner that is not finite (it has no place); "
-                                            "export the surface again",
-                                            source, t + 1));
+                throw UserError(
+                    fmt::format("{}: triangle {} has a corner that is not finite (it has no place); "
+                                "export the surface again",
+                                source, t + 1));
             longest = std::max(longest, (surface.point(t, (corner + 1) % 3) - surface.point(t, corner)).norm());
         }
         if (!(surface.area_vector(t).norm() > flattest * longest * longest))
-            throw UserError(fmt::format("{}: triangle {} at {} has no area (it has no normal to push particles along); "
-                                        "remove it, for example by merging duplicate points in a mesh editor",
-                                        source, t + 1, text(surface.point(t, 0))));
+            throw UserError(
+                fmt::format("{}: triangle {} at {} has no area (it has no normal to push particles along); "
+                            "remove it, for example by merging duplicate points in a mesh editor",
+                            source, t + 1, text(surface.point(t, 0))));
     }
 }
 
@@ -51,9 +53,9 @@ void check_edges(SurfaceMesh const& surface, std::string const& source)
                   [&](std::size_t begin, std::size_t end)
                   {
                       EdgeUse const& first = uses[begin];
-                      std::string const edge =
-                          fmt::format("the edge from {} to {}", text(surface.points[static_cast<std::size_t>(first.low)]),
-                                      text(surface.points[static_cast<std::size_t>(first.high)]));
+                      std::string const edge = fmt::format("the edge from {} to {}",
+                                                           text(surface.points[static_cast<std::size_t>(first.low)]),
+                                                           text(surface.points[static_cast<std::size_t>(first.high)]));
                       if (end - begin == 1)
                           throw UserError(fmt::format(
                               "{}: the surface is open: {} belongs to triangle {} alone (a closed surface has two at "
@@ -83,13 +85,12 @@ std::vector<EdgeUse> edges_of(SurfaceMesh const& surface)
         for (std::size_t side = 0; side < 3; ++side)
         {
             std::int32_t const a = surface.triangles[t][side], b = surface.triangles[t][(side + 1) % 3];
-            uses.push_back({std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t),
-                            static_cast<std::int8_t>(side), a < b});
+            uses.push_back(
+                {std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), static_cast<std::int8_t>(side), a < b});
         }
     std::sort(uses.begin(), uses.end(),
-              [](EdgeUse const& a, EdgeUse const& b) {
-                  return std::tie(a.low, a.high, a.triangle, a.side) < std::tie(b.low, b.high, b.triangle, b.side);
-              });
+              [](EdgeUse const& a, EdgeUse const& b)
+              { return std::tie(a.low, a.high, a.triangle, a.side) < std::tie(b.low, b.high, b.triangle, b.side); });
     return uses;
 }
 
@@ -110,10 +111,11 @@ void check_surface(SurfaceMesh const& surface, std::string const& source, bool o
     check_edges(surface, source);
     double const volume = signed_volume(surface);
     if (!(volume > 0))
-        throw UserError(fmt::format("{}: the surface is inside out, triangle 1 and all others (it encloses {:.6g} m^3: "
-                                    "its triangles are wound clockwise seen from outside); let a mesh editor flip the "
-                                    "normals. On which side particles are is said by inside = true or false",
-                                    source, volume));
+        throw UserError(
+            fmt::format("{}: the surface is inside out, triangle 1 and all others (it encloses {:.6g} m^3: "
+                        "its triangles are wound clockwise seen from outside); let a mesh editor flip the "
+                        "normals. On which side particles are is said by inside = true or false",
+                        source, volume));
 }
 
 }  // namespace gimdem

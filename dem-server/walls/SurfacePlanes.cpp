@@ -65,7 +65,8 @@ public:
     {
         std::vector<std::int32_t> order(surface_.triangles.size());
         std::iota(order.begin(), order.end(), 0);
-        std::stable_sort(order.begin(), order.end(), [this](std::int32_t a, std::int32_t b)
+        std::stable_sort(order.begin(), order.end(),
+                         [this](std::int32_t a, std::int32_t b)
                          { return surface_.area_vector(index(a)).norm() > surface_.area_vector(index(b)).norm(); });
         for (std::int32_t const seed : order)
             if (planes_.plane_of_triangle[index(seed)] < 0) flood(seed);

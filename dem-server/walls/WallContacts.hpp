@@ -59,9 +59,9 @@ private:
     WallGeometry const& walls_;
     double time_ = 0;
     bool some_wall_moves_ = false;
-    exec::Buffer<WallPose> poses_, built_at_;  ///< of each body, now and when the list was built
+    exec::Buffer<WallPose> poses_, built_at_;        ///< of each body, now and when the list was built
     Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();  ///< around all particles and what they reached then [m]
-    exec::Buffer<std::int32_t> first_pair_;  ///< of each body: row of its material in the table of pairs
+    exec::Buffer<std::int32_t> first_pair_;          ///< of each body: row of its material in the table of pairs
     WallPairs pairs_, old_;
     exec::Buffer<std::uint64_t> seen_;  ///< what the first look at the walls found, for the second
     exec::Buffer<Touch> touches_;       ///< room for the touches of particles with many pairs

@@ -223,8 +223,7 @@ std::string WallGeometry::description() const
         add(s.normal.x, s.normal.y, s.normal.z, s.normal.w);
         if (s.kind == SurfaceKind::facets && s.body == mesh_body_) continue;
         add(s.point.x, s.point.y, s.point.z, s.point.w);
-        text += fmt::format("{} {} {} {} ", static_cast<int>(s.kind), s.inside, s.two_sided,
-                            material(s.body));
+        text += fmt::format("{} {} {} {} ", static_cast<int>(s.kind), s.inside, s.two_sided, material(s.body));
         WallPose const pose = motion(s.body).at(0);
         add(pose.shift.x, pose.shift.y, pose.shift.z);
         for (std::int32_t t = s.triangle; t < s.triangle + s.triangle_count; ++t)

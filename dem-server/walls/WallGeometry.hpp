@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The walls: those boundary faces of the client's mesh that stop particles, and the walls of the case file. Coplanar
-/// faces are joined into one plane, so that a sphere that rolls over the seam of two faces touches one wall and not two.
+/// faces are joined into one plane, so that a sphere that rolls over the seam of two faces touches one wall and not
+/// two.
 #pragma once
 
 #include <cstdint>

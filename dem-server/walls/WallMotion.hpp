@@ -42,11 +42,11 @@ public:
 
 private:
     bool moves_ = false;
-    Vec3 velocity_ = Vec3::Zero();                                ///< [m/s]
-    Vec3 axis_ = Vec3::UnitZ(), origin_ = Vec3::Zero();           ///< of the rotation
-    double speed_ = 0;                                            ///< [rad/s]
-    Vec3 stroke_ = Vec3::Zero();                                  ///< amplitude times direction [m]
-    double angular_frequency_ = 0, phase_ = 0;                    ///< [rad/s], [rad]
+    Vec3 velocity_ = Vec3::Zero();                       ///< [m/s]
+    Vec3 axis_ = Vec3::UnitZ(), origin_ = Vec3::Zero();  ///< of the rotation
+    double speed_ = 0;                                   ///< [rad/s]
+    Vec3 stroke_ = Vec3::Zero();                         ///< amplitude times direction [m]
+    double angular_frequency_ = 0, phase_ = 0;           ///< [rad/s], [rad]
 };
 
 }  // namespace gimdem

@@ -143,10 +143,11 @@ private:
     double of_plane(WallSurface const& s, Vec3 const& low, Vec3 const& high) const
     {
         double most = 0;
-        visit_corners(
-            low, high,
-            [&](Vec3 const& x)
-            { most = std::max(most, std::abs(s.normal.xyz().dot(now_.to_body(x)) - s.normal.xyz().dot(then_.to_body(x)))); });
+        visit_corners(low, high,
+                      [&](Vec3 const& x) {
+                          most = std::max(most, std::abs(s.normal.xyz().dot(now_.to_body(x)) -
+                                                         s.normal.xyz().dot(then_.to_body(x))));
+                      });
         return most;
     }
 
@@ -194,8 +195,9 @@ void WallContacts::build(ParticleState const& particles, double skin, std::span<
 
     pairs_.offsets.resize(n + 1);
     seen_.resize(n);
-    PairLister lister{nearby(), particles.position.view().data, skin, pairs_.offsets.view().data, seen_.view().data,
-                      nullptr,  nullptr};
+    PairLister lister{
+        nearby(), particles.position.view().data, skin, pairs_.offsets.view().data, seen_.view().data, nullptr,
+        nullptr};
     exec::for_each(execution_, n, lister);
     std::int32_t most = 0;
     for (std::int64_t i = 0; i < n; ++i)

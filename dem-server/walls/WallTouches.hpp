@@ -20,12 +20,12 @@ struct Touch
 {
     std::int32_t pair;  ///< of the list of particle-surface pairs
     std::int32_t surface;
-    bool interior;  ///< inside the surface, not on its rim
-    bool counts;    ///< no deeper touch stands for it
+    bool interior;     ///< inside the surface, not on its rim
+    bool counts;       ///< no deeper touch stands for it
     Constant3 point;   ///< [m]
     Constant3 normal;  ///< towards the particle
-    double overlap;  ///< [m]
-    double rank;     ///< overlap, a little more for the interior: the order in which touches stand for others [m]
+    double overlap;    ///< [m]
+    double rank;       ///< overlap, a little more for the interior: the order in which touches stand for others [m]
 };
 
 /// The touches of one particle: found, then weeded.
@@ -71,7 +71,8 @@ struct WallTouches
         for (std::int32_t t = 0; t < count; ++t)
             for (std::int32_t u = 0; u < count && touches[t].counts; ++u)
             {
-                bool const is_before = touches[u].rank > touches[t].rank || (touches[u].rank == touches[t].rank && u < t);
+                bool const is_before =
+                    touches[u].rank > touches[t].rank || (touches[u].rank == touches[t].rank && u < t);
                 if (is_before && stands_for(touches[u], touches[t], radius)) touches[t].counts = false;
             }
     }
@@ -80,7 +81,8 @@ struct WallTouches
     GIMDEM_HD bool stands_for(Touch const& u, Touch const& t, double radius) const
     {
         WallSurface const& su = nearby.walls.surfaces[u.surface];
-        if (su.patch == nearby.walls.surfaces[t.surface].patch && u.normal.vec().dot(t.normal.vec()) > smooth_cosine) return true;
+        if (su.patch == nearby.walls.surfaces[t.surface].patch && u.normal.vec().dot(t.normal.vec()) > smooth_cosine)
+            return true;
         if (t.interior) return false;
         double const near = closeness * radius + su.slack;
         Vec3 const apart = t.point.vec() - u.point.vec();

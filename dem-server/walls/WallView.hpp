@@ -30,13 +30,13 @@ enum class SurfaceKind : std::uint8_t
 /// What a particle touches once and holds one tangential spring for.
 struct WallSurface
 {
-    Quad normal;  ///< unit, towards the particles; w: offset, normal . y = w on it [m]. Cylinder: axis; w: radius [m]
-    Quad point;   ///< cylinder: where the axis begins [m]; w: length [m]
-    double slack;                ///< how far its triangles may lie off the plane [m]
-    std::int32_t body;           ///< whose it is
-    std::int32_t patch;          ///< surfaces of one patch meet smoothly
-    std::int32_t triangle;       ///< its first triangle ...
-    std::int32_t triangle_count; ///< ... and how many
+    Quad normal;   ///< unit, towards the particles; w: offset, normal . y = w on it [m]. Cylinder: axis; w: radius [m]
+    Quad point;    ///< cylinder: where the axis begins [m]; w: length [m]
+    double slack;  ///< how far its triangles may lie off the plane [m]
+    std::int32_t body;            ///< whose it is
+    std::int32_t patch;           ///< surfaces of one patch meet smoothly
+    std::int32_t triangle;        ///< its first triangle ...
+    std::int32_t triangle_count;  ///< ... and how many
     SurfaceKind kind;
     bool inside;     ///< cylinder: particles are inside
     bool endless;    ///< cylinder: has no ends

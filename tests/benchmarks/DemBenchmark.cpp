@@ -3,10 +3,10 @@
 ///
 ///   benchmark_dem [--data FILE] [--steps N] [--warm-up N] [--threads N] [--dt S] [--skin K]
 ///
-/// FILE: particles in the format of LAMMPS (id type diameter density x y z, then Velocities), so that other programs can
-/// start from the same state; without it, a lattice that falls. Prints figures.
-#include <CLI/CLI.hpp>
+/// FILE: particles in the format of LAMMPS (id type diameter density x y z, then Velocities), so that other programs
+/// can start from the same state; without it, a lattice that falls. Prints figures.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <fstream>
@@ -36,8 +36,9 @@ std::vector<test::Sphere> lattice()
         for (int j = 0; j < 4; ++j)
             for (int i = 0; i < 54; ++i)
                 if (spheres.size() < 17'563)
-                    spheres.push_back({Vec3(1e-3 + 1.65e-3 * i + 1e-5 * (k % 3), 1.2e-3 + 1.7e-3 * j, 1e-3 + 1.65e-3 * k),
-                                       0.7725e-3});
+                    spheres.push_back(
+                        {Vec3(1e-3 + 1.65e-3 * i + 1e-5 * (k % 3), 1.2e-3 + 1.7e-3 * j, 1e-3 + 1.65e-3 * k),
+                         0.7725e-3});
     return spheres;
 }
 

@@ -52,11 +52,13 @@ TEST(WallOfACase, IsReadWithItsMotion)
 TEST(WallOfACase, MistakesAreNamed)
 {
     EXPECT_EQ(message_of("shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n"), "no error");
-    EXPECT_THAT(message_of("shape = \"plane\"\npoint = [0, 0, 0]\n"), HasSubstr("\"normal\" of [[wall]] \"w\" is missing"));
+    EXPECT_THAT(message_of("shape = \"plane\"\npoint = [0, 0, 0]\n"),
+                HasSubstr("\"normal\" of [[wall]] \"w\" is missing"));
     EXPECT_THAT(message_of("shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 0]\n"), HasSubstr("is zero"));
     EXPECT_THAT(message_of("shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 1\n"),
                 HasSubstr("\"radius\" of [[wall]] \"w\" has no effect"));
-    EXPECT_THAT(message_of("shape = \"stl\"\nfile = \"a.stl\"\n"), HasSubstr("\"inside\" of [[wall]] \"w\" is missing"));
+    EXPECT_THAT(message_of("shape = \"stl\"\nfile = \"a.stl\"\n"),
+                HasSubstr("\"inside\" of [[wall]] \"w\" is missing"));
     EXPECT_THAT(message_of("shape = \"stl\"\nfile = \"a.stl\"\nopen = true\ninside = true\n"), HasSubstr("no effect"));
     EXPECT_THAT(message_of("shape = \"cylinder\"\npoint = [0, 0, 0]\naxis = [0, 1, 0]\nradius = 1\n"),
                 HasSubstr("\"inside\""));

@@ -63,8 +63,10 @@ TEST(StlFile, MissingEmptyOrNoStlIsRefused)
     EXPECT_THAT(message_of(missing), AllOf(HasSubstr("/nowhere/drum.stl does not exist"), HasSubstr("[[wall]]")));
     EXPECT_THAT(message_of(""), HasSubstr("is empty"));
     EXPECT_THAT(message_of("v 0 0 0\nv 1 0 0\n"), HasSubstr("is no whole STL file"));
-    EXPECT_THAT(message_of("solid wall\nendsolid wall\n"), testing::AnyOf(HasSubstr("no triangle"), HasSubstr("no whole STL")));
-    EXPECT_THAT(message_of("solid wall\nfacet normal 0 0 1\nouter loop\nvertex a b c\n"), HasSubstr("is no whole STL file"));
+    EXPECT_THAT(message_of("solid wall\nendsolid wall\n"),
+                testing::AnyOf(HasSubstr("no triangle"), HasSubstr("no whole STL")));
+    EXPECT_THAT(message_of("solid wall\nfacet normal 0 0 1\nouter loop\nvertex a b c\n"),
+                HasSubstr("is no whole STL file"));
 }
 
 TEST(StlFile, CutShortIsRefused)
@@ -89,7 +91,8 @@ TEST(StlFile, TriangleWithoutAreaIsNamed)
 {
     Soup flat = box;
     flat[6] = {Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(0.5, 0.5, 0.5)};
-    EXPECT_THAT(message_of(ascii_stl(flat)), AllOf(HasSubstr("triangle 7 at (0, 0, 0) m has no area"), HasSubstr("remove")));
+    EXPECT_THAT(message_of(ascii_stl(flat)),
+                AllOf(HasSubstr("triangle 7 at (0, 0, 0) m has no area"), HasSubstr("remove")));
     EXPECT_THAT(message_of(ascii_stl(flat), true), HasSubstr("triangle 7"));
     flat[6] = {Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(1, 1, 1)};
     EXPECT_THAT(message_of(binary_stl(flat)), HasSubstr("triangle 7"));
@@ -100,7 +103,8 @@ TEST(StlFile, InsideOutIsTold)
     Soup inside_out = box;
     for (Corners& triangle : inside_out)
         std::swap(triangle[0], triangle[1]);
-    EXPECT_THAT(message_of(ascii_stl(inside_out)), AllOf(HasSubstr("inside out"), HasSubstr("-6 m^3"), HasSubstr("flip")));
+    EXPECT_THAT(message_of(ascii_stl(inside_out)),
+                AllOf(HasSubstr("inside out"), HasSubstr("-6 m^3"), HasSubstr("flip")));
     Soup one = box;
     std::swap(one[3][0], one[3][1]);
     EXPECT_THAT(message_of(ascii_stl(one)), AllOf(HasSubstr("wound against each other"), HasSubstr("4")));

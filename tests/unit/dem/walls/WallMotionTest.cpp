@@ -145,7 +145,8 @@ TEST(VibratingFloor, LaunchesWhenItsAccelerationExceedsGravity)
         // from then on, A w^3 cos(w t - pi / 2) t^3 / 6, has made up for the overlap at rest.
         double const w = 2 * std::numbers::pi * 5, phase = std::asin(1 / strength);
         double const expected = (phase + std::numbers::pi / 2) / w;
-        double const delay = std::cbrt(6 * resting_overlap(0.005, gravity, 1e9) / (strength * gravity * w * std::cos(phase)));
+        double const delay =
+            std::cbrt(6 * resting_overlap(0.005, gravity, 1e9) / (strength * gravity * w * std::cos(phase)));
         EXPECT_LT(delay, 2e-3);
         EXPECT_NEAR(time_of_flight_start(strength), expected + delay / 2, delay / 2) << strength;
     }
@@ -228,7 +229,8 @@ TEST(MovingWalls, ThreadsDoNotChangeABit)
     for (int k = 0; k < 100; ++k)
         spheres.push_back({3e-3 * Vec3(k % 5 + 1, k / 5 % 5 + 1, k / 25 + 1) + 1e-4 * Vec3(k % 3, k % 7, k % 5), 1e-3});
     using gimdem::exec::Backend;
-    WallScene one({shaken}, spheres, gravity, 0.9, 0.3, 1.2e5), two({shaken}, spheres, gravity, 0.9, 0.3, 1.2e5, {Backend::openmp, 2});
+    WallScene one({shaken}, spheres, gravity, 0.9, 0.3, 1.2e5),
+        two({shaken}, spheres, gravity, 0.9, 0.3, 1.2e5, {Backend::openmp, 2});
     one.run(0.012, 2e-5);
     two.run(0.012, 2e-5);
     EXPECT_GT(one.system.rebuilds(), 3);
