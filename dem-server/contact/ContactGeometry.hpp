@@ -12,10 +12,10 @@ template <class Real>
 struct ContactGeometry
 {
     Vector3<Real> normal;    ///< unit vector towards body i, on which the force is asked
-    Real overlap;            ///< delta > 0 [m]
+    Real overlap;           ///< delta > 0 [m]
     Vector3<Real> velocity;  ///< of i relative to j at the contact point [m/s]
-    Real radius_eff;         ///< R*, (D.1) [m]
-    Real mass_eff;           ///< m*, (D.2) [kg]
+    Real radius_eff;        ///< R*, (D.1) [m]
+    Real mass_eff;          ///< m*, (D.2) [kg]
 };
 
 /// Force on body i; body j feels the opposite.
