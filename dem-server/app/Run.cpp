@@ -118,6 +118,8 @@ public:
         log_.summary().add("settled_height_2z", 2 * centre_of_mass_height(system_.particles(), mesh_, up), "m");
         engine_.map_initial_state();
         server_.accept_mesh(engine_.fields());
+        if (!server_.shared_memory_note().empty())
+            fmt::print(stderr, "gimdem-server: note: {}\n", server_.shared_memory_note());
     }
 
     void couple()
@@ -159,11 +161,13 @@ private:
 
 void run(Case const& settings, std::filesystem::path const& folder)
 {
+    refuse_periodic_coupled_run(settings);
     std::filesystem::create_directories(folder);
     Materials const materials(settings);
     ParticleState particles = insert_particles(settings, materials);
     check_time_step(settings, materials, particles);
-    check_overlaps(exec::make_execution(settings.dem.backend, settings.dem.threads), particles);
+    check_overlaps(exec::make_execution(settings.dem.backend, settings.dem.threads), particles,
+                   Domain::of(settings.domain));
 
     coupling::Server server({.endpoint = settings.coupling.endpoint,
                              .name = "gimdem-server " GIMDEM_VERSION,

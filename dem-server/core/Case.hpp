@@ -36,11 +36,14 @@ struct CouplingSettings
 /// [dem]
 struct DemSettings
 {
-    double time_step = 0;            ///< upper bound [s]
-    Triple gravity{0, 0, 0};         ///< [m/s^2]
-    int threads = 0;                 ///< 0: all cores
-    std::string backend = "openmp";  ///< serial | openmp
-    double skin = 0.3;               ///< of the neighbour list, in units of the smallest radius [1]
+    double time_step = 0;                       ///< upper bound [s]
+    Triple gravity{0, 0, 0};                    ///< [m/s^2]
+    int threads = 0;                            ///< 0: all cores
+    std::string backend = "openmp";             ///< serial | openmp
+    double skin = 0.3;                          ///< of the neighbour list, in units of the smallest radius [1]
+    std::string contact_law = "hertz-mindlin";  ///< one of force_law_names
+    std::string rolling_friction = "none";      ///< one of rolling_law_names
+    std::string cohesion = "none";              ///< one of cohesion_law_names
 };
 
 /// [[materials]]
@@ -58,6 +61,13 @@ struct ContactSettings
     std::array<std::string, 2> pair;
     double restitution = 1;  ///< normal, in [0.05, 1]
     double friction = 0;     ///< Coulomb coefficient of sliding
+
+    // Only where the laws chosen in [dem] need them; check_contact_laws sees to it that they are given.
+    double normal_stiffness = 0;                  ///< k_n of the linear law [N/m]
+    double tangential_stiffness_ratio = 2.0 / 7;  ///< k_t / k_n of the linear law
+    double rolling_friction = 0;                  ///< mu_r
+    double rolling_damping = 0;                   ///< eta_r of EPSD, share of critical
+    double cohesion_energy_density = 0;           ///< [J/m^3]
 };
 
 /// [walls]
@@ -102,6 +112,13 @@ struct WallItemSettings
     Triple velocity{0, 0, 0};     ///< [m/s]
     std::optional<WallRotationSettings> rotation;
     std::optional<WallVibrationSettings> vibration;
+};
+
+/// [domain]
+struct DomainSettings
+{
+    std::array<bool, 3> periodic{false, false, false};  ///< along x, y, z
+    std::array<Triple, 2> box{};                        ///< corners; only periodic axes count [m]
 };
 
 /// [[insertion]]
@@ -172,6 +189,7 @@ struct Case
     std::vector<ContactSettings> contacts;
     WallSettings walls;
     std::vector<WallItemSettings> wall;
+    DomainSettings domain;
     std::vector<InsertionSettings> insertion;
     std::optional<SettleSettings> settle;
     FluidForceSettings fluid_forces;

@@ -127,6 +127,15 @@ void check_insertions(Case const& input, Document const& document)
     }
 }
 
+void check_domain(DomainSettings const& domain, Document const& document)
+{
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (domain.periodic[axis] && !(domain.box[1][axis] > domain.box[0][axis]))
+            throw UserError(document.at("domain.box") + ": box in [domain] is empty along " + "xyz"[axis] +
+                            " (that axis is periodic, the box tells its period); write e.g. box = [[0.0, 0.0, 0.0], "
+                            "[0.05, 0.05, 0.05]]");
+}
+
 void check_output(OutputSettings const& output, Document const& document)
 {
     std::set<std::string> seen;
@@ -154,11 +163,13 @@ void check_case(Case const& input, Document const& document)
     check_grid(input.run, document);
     check_material_names(input, document);
     check_contacts(input, document);
+    check_contact_laws(input, document);
     check_material_exists(input.walls.material, "walls.material", input, document);
     for (std::size_t i = 0; i < input.wall.size(); ++i)
         if (!input.wall[i].material.empty())
             check_material_exists(input.wall[i].material, entry("wall", i, "material"), input, document);
     check_walls(input, document);
+    check_domain(input.domain, document);
     check_insertions(input, document);
     check_pairs_in_use(input, document);
     check_output(input.output, document);

@@ -36,6 +36,9 @@ void check_insertion(InsertionSettings const& insertion, std::size_t index, Docu
 /// no length.
 void check_walls(Case const& input, Document const& document);
 
+/// Throw UserError where a [[contacts]] misses what the laws chosen in [dem] need, or has what they do not use.
+void check_contact_laws(Case const& input, Document const& document);
+
 /// Throw UserError where settings contradict each other or name what does not exist.
 void check_case(Case const& input, Document const& document);
 

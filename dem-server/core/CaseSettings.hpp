@@ -18,6 +18,7 @@ case_file::Fields<WallSettings> const& settings_of(WallSettings const&);
 case_file::Fields<WallItemSettings> const& settings_of(WallItemSettings const&);
 case_file::Fields<WallRotationSettings> const& settings_of(WallRotationSettings const&);
 case_file::Fields<WallVibrationSettings> const& settings_of(WallVibrationSettings const&);
+case_file::Fields<DomainSettings> const& settings_of(DomainSettings const&);
 case_file::Fields<InsertionSettings> const& settings_of(InsertionSettings const&);
 case_file::Fields<SettleSettings> const& settings_of(SettleSettings const&);
 case_file::Fields<FluidForceSettings> const& settings_of(FluidForceSettings const&);

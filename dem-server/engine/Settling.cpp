@@ -59,6 +59,17 @@ std::string description(Case const& settings)
         add_triple(i.box[1]);
         add_triple(i.velocity);
     }
+    DemSettings const& laws = settings.dem;
+    if (laws.contact_law != "hertz-mindlin" || laws.rolling_friction != "none" || laws.cohesion != "none")
+    {
+        add(laws.contact_law, laws.rolling_friction, laws.cohesion);
+        for (ContactSettings const& c : settings.contacts)
+            add(c.normal_stiffness, c.tangential_stiffness_ratio, c.rolling_friction, c.rolling_damping,
+                c.cohesion_energy_density);
+    }
+    if (Domain::of(settings.domain).is_periodic())
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            add(settings.domain.periodic[axis], settings.domain.box[0][axis], settings.domain.box[1][axis]);
     if (settings.settle) add(settings.settle->duration, settings.settle->kinetic_energy);
     return text;
 }
@@ -136,6 +147,11 @@ void write_state(std::filesystem::path const& file, std::string const& kind, Dem
     writer.add("pair_offsets", pairs.row_offsets.host());
     writer.add("pair_second", pairs.second.host());
     writer.add("pair_spring", numbers(pairs.displacement), 4);
+    if (pairs.carries_rolling)
+    {
+        writer.add("pair_rolling_spring", numbers(pairs.rolling_spring), 4);
+        writer.add("wall_rolling_spring", numbers(walls.rolling_spring), 4);
+    }
     writer.add("wall_offsets", walls.offsets.host());
     writer.add("wall_plane", walls.plane.host());
     writer.add("wall_spring", numbers(walls.displacement), 4);
@@ -166,6 +182,11 @@ void read_state(std::filesystem::path const& file, std::string const& kind, DemS
     read_into(reader.int32s("wall_offsets"), walls.offsets);
     read_into(reader.int32s("wall_plane"), walls.plane);
     read_into(reader.doubles("wall_spring"), walls.displacement);
+    if (pairs.carries_rolling)
+    {
+        read_into(reader.doubles("pair_rolling_spring"), pairs.rolling_spring);
+        read_into(reader.doubles("wall_rolling_spring"), walls.rolling_spring);
+    }
     system.prepare();
 }
 

@@ -146,7 +146,7 @@ void Mapper::locate(ParticleState const& particles, exec::Buffer<std::uint8_t> c
                         "box, [walls] also, the height of the mesh, and the time step",
                         particles.id[p], x.x(), x.y(), x.z()));
     }
-    exec::group_by_key(cell_of_.host(), mesh_.cell_count(), by_cell_);
+    exec::group_by_key(execution_, cell_of_.host(), mesh_.cell_count(), by_cell_);
 }
 
 // Consecutive rows for the particles of a cell, cell after cell.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "walls/WallContacts.hpp"
 
-#include "contact/HertzMindlin.hpp"
+#include <algorithm>
+
 #include "exec/ForEach.hpp"
+#include "exec/Reduce.hpp"
+#include "walls/WallSprings.hpp"
 
 namespace gimdem
 {
@@ -10,30 +13,46 @@ namespace gimdem
 namespace
 {
 
+/// What all wall kernels share: finds the contacts of one particle, each with its springs.
+struct WallFinder
+{
+    WallTouches walls;
+    WallSprings springs;
+    Quad const* position;
+    std::int32_t const* offsets;
+    Touch* places;  ///< shape=(n_pairs,), or null where no particle has many pairs
+
+    /// The touches of particle i, in `at_hand` or in its places; returns where they are and how many.
+    GIMDEM_HD Touch* operator()(std::int64_t i, Touch* at_hand, std::int32_t& count) const
+    {
+        std::int32_t const begin = offsets[i], end = offsets[i + 1];
+        Touch* const touches = end - begin > WallTouches::most_at_hand ? places + begin : at_hand;
+        Quad const x = position[i];
+        count = walls.find(x, begin, end, touches);
+        walls.weed(x.w, touches, count);
+        SpringMover{walls, springs, begin, end}(touches, count);
+        return touches;
+    }
+};
+
 /// All walls of one particle.
+template <class Law>
 struct WallKernel
 {
     ParticleView particles;
-    WallTouches walls;
-    std::int32_t const* offsets;
-    Touch* places;                      ///< shape=(n_pairs,), or null where no particle has many pairs
-    ContactConstants const* constants;  ///< of all pairs of materials
-    std::int32_t const* first_pair;     ///< of each body: the row of its material
+    WallFinder find;
+    std::int32_t const* near;                                   ///< particles that have walls nearby
+    typename Law::template Constants<double> const* constants;  ///< of all pairs of materials
+    std::int32_t const* first_pair;                             ///< of each body: the row of its material
     double dt;
-    Quad* displacement;
-    Quad* wall_force;
+    Quad* wall_force;  ///< of each near particle
 
-    GIMDEM_HD void operator()(std::int64_t i) const
+    GIMDEM_HD void operator()(std::int64_t n) const
     {
-        wall_force[i] = {0, 0, 0, 0};
-        std::int32_t const begin = offsets[i], end = offsets[i + 1];
-        if (begin == end) return;
+        std::int64_t const i = near[n];
         Touch at_hand[WallTouches::most_at_hand];
-        Touch* const touches = end - begin > WallTouches::most_at_hand ? places + begin : at_hand;
-        Quad const x = particles.position[i];
-        std::int32_t const count = walls.find(x, begin, end, touches);
-        walls.weed(x.w, touches, count);
-        move_springs(begin, end, touches, count);
+        std::int32_t count = 0;
+        Touch const* const touches = find(i, at_hand, count);
 
         Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
         int kept = 0;
@@ -43,83 +62,46 @@ struct WallKernel
             add(i, touches[t], force, torque);
             ++kept;
         }
+        wall_force[n] = Quad::of(force, kept);
+        if (kept == 0) return;
         particles.force[i].set_xyz(particles.force[i].xyz() + force);
         particles.torque[i].set_xyz(particles.torque[i].xyz() + torque);
-        wall_force[i] = Quad::of(force, kept);
     }
 
 private:
-    /// A contact that comes over from another plane of its patch, or from the same edge, brings its spring along;
-    /// planes that are no longer touched lose theirs.
-    GIMDEM_HD void move_springs(std::int32_t begin, std::int32_t end, Touch const* touches, std::int32_t count) const
-    {
-        for (std::int32_t t = 0; t < count; ++t)
-            if (touches[t].counts) displacement[touches[t].pair].w = 1;
-        for (std::int32_t t = 0; t < count; ++t)
-        {
-            std::int32_t const k = touches[t].pair;
-            if (!touches[t].counts || !displacement[k].xyz().isZero(0)) continue;
-            std::int32_t const from = giver(begin, end, touches, count, t);
-            if (from >= 0) displacement[k].set_xyz(displacement[from].xyz());
-        }
-        for (std::int32_t k = begin; k < end; ++k)
-            if (displacement[k].w == 0)
-                displacement[k] = {0, 0, 0, 0};
-            else
-                displacement[k].w = 0;
-    }
-
-    /// Pair whose spring touch t takes over: one that touches no more, most nearly in the same plane; or -1.
-    GIMDEM_HD std::int32_t giver(std::int32_t begin, std::int32_t end, Touch const* touches, std::int32_t count,
-                                 std::int32_t t) const
-    {
-        WallSurface const* const surfaces = walls.nearby.walls.surfaces;
-        WallSurface const& own = surfaces[touches[t].surface];
-        std::int32_t best = -1;
-        double best_cosine = 0.5;  // two smooth seams at most lie between
-        for (std::int32_t k = begin; k < end; ++k)
-        {
-            if (displacement[k].w != 0 || displacement[k].xyz().isZero(0)) continue;
-            WallSurface const& other = surfaces[walls.plane[k]];
-            double cosine = own.normal.xyz().dot(other.normal.xyz());
-            if (own.two_sided) cosine = std::abs(cosine);
-            if (other.patch != own.patch) cosine = shares_point(touches, count, t, k) ? 1 : 0;
-            if (cosine <= best_cosine) continue;
-            best = k;
-            best_cosine = cosine;
-        }
-        return best;
-    }
-
-    /// Whether pair k touches the particle too, as a part of touch t.
-    GIMDEM_HD bool shares_point(Touch const* touches, std::int32_t count, std::int32_t t, std::int32_t k) const
-    {
-        for (std::int32_t u = 0; u < count; ++u)
-            if (touches[u].pair == k)
-                return (touches[u].point.vec() - touches[t].point.vec()).norm() <= 1e-3 * touches[t].overlap;
-        return false;
-    }
-
     GIMDEM_HD void add(std::int64_t i, Touch const& touch, Vec3& force, Vec3& torque) const
     {
+        NearbyWalls const& nearby = find.walls.nearby;
         Quad const v = particles.velocity[i];
+        Quad const w = particles.angular_velocity[i];
         double const radius = particles.position[i].w;
         double const lever = radius - touch.overlap / 2;
-        std::int32_t const body = walls.nearby.walls.surfaces[touch.surface].body;
+        std::int32_t const body = nearby.walls.surfaces[touch.surface].body;
         Vec3 const normal = touch.normal.vec();
-        Vec3 velocity = v.xyz() - lever * particles.angular_velocity[i].xyz().cross(normal);
-        if (walls.nearby.walls.bodies[body].moves) velocity -= walls.nearby.poses[body].velocity_at(touch.point.vec());
+        Vec3 velocity = v.xyz() - lever * w.xyz().cross(normal), spin = w.xyz();
+        if (nearby.walls.bodies[body].moves)
+        {
+            velocity -= nearby.poses[body].velocity_at(touch.point.vec());
+            spin -= nearby.poses[body].spin.vec();
+        }
         ContactGeometry<double> const contact{.normal = vector3(normal),
                                               .overlap = touch.overlap,
                                               .velocity = vector3(velocity),
                                               .radius_eff = radius,
-                                              .mass_eff = 1 / v.w};
-        HertzMindlin<double> const law{constants[first_pair[body] + particles.material[i]], dt};
-        Vector3<double> spring = vector3(displacement[touch.pair].xyz());
-        ContactForce<double> const result = law(contact, spring);
-        displacement[touch.pair] = {spring.x, spring.y, spring.z, 0};
+                                              .mass_eff = 1 / v.w,
+                                              .spin = vector3(spin),
+                                              .inverse_inertia = w.w,
+                                              .per_distance = 0};
+        Quad& tangential = find.springs.tangential[touch.pair];
+        ContactSprings<double> springs{vector3(tangential.xyz())};
+        if constexpr (Law::has_rolling_spring) springs.rolling = vector3(find.springs.rolling[touch.pair].xyz());
+        ContactForce<double> const result =
+            Law::template apply<double>(constants[first_pair[body] + particles.material[i]], dt, contact, springs);
+        tangential = Quad::of(vec3(springs.tangential), 0);
+        if constexpr (Law::has_rolling_spring) find.springs.rolling[touch.pair] = Quad::of(vec3(springs.rolling), 0);
         force += vec3(result.force);
         torque -= lever * normal.cross(vec3(result.tangential));
+        if constexpr (Law::rolls) torque += vec3(result.rolling);
     }
 };
 
@@ -127,7 +109,7 @@ private:
 
 WallContacts::WallContacts(exec::Execution execution, Materials const& materials, int wall_material,
                            WallGeometry const& walls)
-    : execution_(execution), constants_(materials.table()), walls_(walls)
+    : execution_(execution), model_(materials), walls_(walls)
 {
     poses_.resize(walls.body_count());
     first_pair_.resize(walls.body_count());
@@ -142,17 +124,31 @@ WallContacts::WallContacts(exec::Execution execution, Materials const& materials
 
 void WallContacts::add_forces(ParticleState& particles, double dt)
 {
-    wall_force_.resize(particles.count());
-    exec::for_each(execution_, particles.count(),
-                   WallKernel{particles.view(),
-                              {nearby(), pairs_.plane.view().data, pairs_.whole.view().data},
-                              pairs_.offsets.view().data,
-                              touches_.view().data,
-                              constants_.data,
-                              first_pair_.view().data,
-                              dt,
-                              pairs_.displacement.view().data,
-                              wall_force_.view().data});
+    WallFinder const find{
+        {nearby(), pairs_.plane.view().data, pairs_.whole.view().data},
+        {pairs_.displacement.view().data, model_.has_rolling_spring() ? pairs_.rolling_spring.view().data : nullptr},
+        particles.position.view().data,
+        pairs_.offsets.view().data,
+        touches_.view().data};
+    wall_force_.resize(near_.size());
+    model_.visit(
+        [&]<class Law>(LawTable<Law> const& table)
+        {
+            exec::for_each(execution_, near_.size(),
+                           WallKernel<Law>{particles.view(), find, near_.view().data, table.constants.view().data,
+                                           first_pair_.view().data, dt, wall_force_.view().data});
+        });
+    Quad const* const force = wall_force_.view().data;
+    total_force_ = exec::reduce(
+        execution_, wall_force_.size(), Quad{0, 0, 0, 0}, [=](std::int64_t n) { return force[n]; },
+        [](Quad const& a, Quad const& b) { return a + b; });
+}
+
+Quad WallContacts::force_on(std::int64_t particle) const
+{
+    auto const near = near_.host();
+    auto const place = std::lower_bound(near.begin(), near.end(), particle);
+    return place != near.end() && *place == particle ? wall_force_[place - near.begin()] : Quad{0, 0, 0, 0};
 }
 
 }  // namespace gimdem

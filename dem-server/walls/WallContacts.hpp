@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "contact/ContactModel.hpp"
 #include "exec/Buffer.hpp"
 #include "exec/Execution.hpp"
 #include "particles/Materials.hpp"
@@ -22,6 +23,7 @@ struct WallPairs
     exec::Buffer<std::int32_t> plane;    ///< shape=(n_pairs,)
     exec::Buffer<std::uint8_t> whole;    ///< shape=(n_pairs,): 1 where the plane's rim is out of reach
     exec::Buffer<Quad> displacement;     ///< shape=(n_pairs,), tangential spring [m]
+    exec::Buffer<Quad> rolling_spring;   ///< shape=(n_pairs,), torque [N m]; empty where no law has such a spring
 };
 
 class WallContacts
@@ -47,15 +49,20 @@ public:
     WallPairs& pairs() { return pairs_; }
     WallPairs const& pairs() const { return pairs_; }
 
-    /// Force of the walls on each particle in the last add_forces [N]; w: number of contacts.
-    exec::Buffer<Quad> const& force_on_particles() const { return wall_force_; }
+    /// Force of the walls on a particle in the last add_forces [N]; w: number of contacts.
+    Quad force_on(std::int64_t particle) const;
+
+    /// Its sum over all particles [N].
+    Vec3 total_force() const { return total_force_.xyz(); }
 
 private:
     NearbyWalls nearby() const { return {walls_.view(), poses_.view().data}; }
     void remember_build(ParticleState const& particles, double skin);
+    void carry_springs(std::span<std::int32_t const> order, exec::Buffer<Quad> const& old_spring,
+                       exec::Buffer<Quad>& spring);
 
     exec::Execution execution_;
-    exec::View<ContactConstants const> constants_;
+    ContactModel model_;
     WallGeometry const& walls_;
     double time_ = 0;
     bool some_wall_moves_ = false;
@@ -65,7 +72,9 @@ private:
     WallPairs pairs_, old_;
     exec::Buffer<std::uint64_t> seen_;  ///< what the first look at the walls found, for the second
     exec::Buffer<Touch> touches_;       ///< room for the touches of particles with many pairs
-    exec::Buffer<Quad> wall_force_;
+    exec::Buffer<std::int32_t> near_;   ///< particles that have pairs: all others cost nothing
+    exec::Buffer<Quad> wall_force_;     ///< on each of them
+    Quad total_force_{0, 0, 0, 0};
 };
 
 }  // namespace gimdem

@@ -93,17 +93,17 @@ struct WallSpringCarrier
     std::int32_t const* plane;
     std::int32_t const* old_offsets;
     std::int32_t const* old_plane;
-    Quad const* old_displacement;
-    Quad* displacement;
+    Quad const* old_spring;
+    Quad* spring;
 
     GIMDEM_HD void operator()(std::int64_t i) const
     {
         std::int64_t const old = order == nullptr ? i : order[i];
         for (std::int32_t k = offsets[i]; k < offsets[i + 1]; ++k)
         {
-            displacement[k] = {0, 0, 0, 0};
+            spring[k] = {0, 0, 0, 0};
             for (std::int32_t m = old_offsets[old]; m < old_offsets[old + 1]; ++m)
-                if (old_plane[m] == plane[k]) displacement[k] = old_displacement[m];
+                if (old_plane[m] == plane[k]) spring[k] = old_spring[m];
         }
     }
 };
@@ -192,6 +192,7 @@ void WallContacts::build(ParticleState const& particles, double skin, std::span<
     swap(old_.offsets, pairs_.offsets);
     swap(old_.plane, pairs_.plane);
     swap(old_.displacement, pairs_.displacement);
+    swap(old_.rolling_spring, pairs_.rolling_spring);
 
     pairs_.offsets.resize(n + 1);
     seen_.resize(n);
@@ -200,25 +201,43 @@ void WallContacts::build(ParticleState const& particles, double skin, std::span<
         nullptr};
     exec::for_each(execution_, n, lister);
     std::int32_t most = 0;
+    std::int64_t near = 0;
+    near_.resize(n);
     for (std::int64_t i = 0; i < n; ++i)
+    {
         most = std::max(most, pairs_.offsets[i]);
+        near_[near] = static_cast<std::int32_t>(i);
+        near += pairs_.offsets[i] > 0;
+    }
+    near_.resize(near);
     std::int64_t const count = exec::exclusive_scan(pairs_.offsets.host());
     pairs_.plane.resize(count);
     pairs_.whole.resize(count);
     pairs_.displacement.resize(count);
+    pairs_.rolling_spring.resize(model_.has_rolling_spring() ? count : 0);
     touches_.resize(most > WallTouches::most_at_hand ? count : 0);
     lister.plane = pairs_.plane.view().data;
     lister.whole = pairs_.whole.view().data;
     exec::for_each(execution_, n, lister);
 
     if (has_springs)
-        exec::for_each(execution_, n,
-                       WallSpringCarrier{order.empty() ? nullptr : order.data(), pairs_.offsets.view().data,
-                                         pairs_.plane.view().data, old_.offsets.view().data, old_.plane.view().data,
-                                         old_.displacement.view().data, pairs_.displacement.view().data});
+        carry_springs(order, old_.displacement, pairs_.displacement);
     else
         pairs_.displacement.fill({0, 0, 0, 0});
+    if (has_springs && model_.has_rolling_spring())
+        carry_springs(order, old_.rolling_spring, pairs_.rolling_spring);
+    else
+        pairs_.rolling_spring.fill({0, 0, 0, 0});
     remember_build(particles, skin);
+}
+
+void WallContacts::carry_springs(std::span<std::int32_t const> order, exec::Buffer<Quad> const& old_spring,
+                                 exec::Buffer<Quad>& spring)
+{
+    exec::for_each(execution_, pairs_.offsets.size() - 1,
+                   WallSpringCarrier{order.empty() ? nullptr : order.data(), pairs_.offsets.view().data,
+                                     pairs_.plane.view().data, old_.offsets.view().data, old_.plane.view().data,
+                                     old_spring.view().data, spring.view().data});
 }
 
 void WallContacts::remember_build(ParticleState const& particles, double skin)

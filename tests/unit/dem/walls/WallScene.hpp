@@ -48,8 +48,8 @@ struct WallScene
     Vec3 position(int i = 0) const { return system.particles().position[i].xyz(); }
     Vec3 velocity(int i = 0) const { return system.particles().velocity[i].xyz(); }
     Vec3 spin(int i = 0) const { return system.particles().angular_velocity[i].xyz(); }
-    Vec3 wall_force(int i = 0) const { return system.walls().force_on_particles()[i].xyz(); }
-    int contacts(int i = 0) const { return static_cast<int>(system.walls().force_on_particles()[i].w); }
+    Vec3 wall_force(int i = 0) const { return system.walls().force_on(i).xyz(); }
+    int contacts(int i = 0) const { return static_cast<int>(system.walls().force_on(i).w); }
 
     Case settings;
     Materials materials;
