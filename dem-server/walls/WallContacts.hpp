@@ -19,12 +19,17 @@ namespace gimdem
 /// Particle-plane pairs that touch or may soon touch, by rising particle, then plane.
 struct WallPairs
 {
-    exec::Buffer<std::int32_t> offsets;  ///< shape=(n_particles + 1,)
-    exec::Buffer<std::int32_t> plane;    ///< shape=(n_pairs,)
-    exec::Buffer<std::uint8_t> whole;    ///< shape=(n_pairs,): 1 where the plane's rim is out of reach
-    exec::Buffer<Quad> displacement;     ///< shape=(n_pairs,), tangential spring [m]
-    exec::Buffer<Quad> rolling_spring;   ///< shape=(n_pairs,), torque [N m]; empty where no law has such a spring
+    exec::Buffer<std::int32_t> offsets;   ///< shape=(n_particles + 1,)
+    exec::Buffer<std::int32_t> plane;     ///< shape=(n_pairs,)
+    exec::Buffer<std::int32_t> particle;  ///< shape=(n_pairs,)
+    exec::Buffer<std::int32_t> row;       ///< shape=(n_pairs,): of the two materials in the table of laws
+    exec::Buffer<std::uint8_t> whole;     ///< shape=(n_pairs,): 1 where the plane's rim is out of reach
+    exec::Buffer<std::uint8_t> alone;     ///< shape=(n_pairs,): 1 where no other pair of the particle has a say
+    exec::Buffer<Quad> displacement;      ///< shape=(n_pairs,), tangential spring [m]
+    exec::Buffer<Quad> rolling_spring;    ///< shape=(n_pairs,), torque [N m]; empty where no law has such a spring
 };
+
+struct WallPairsView;
 
 class WallContacts
 {
@@ -57,6 +62,7 @@ public:
 
 private:
     NearbyWalls nearby() const { return {walls_.view(), poses_.view().data}; }
+    WallPairsView pairs_view();
     void remember_build(ParticleState const& particles, double skin);
     void carry_springs(std::span<std::int32_t const> order, exec::Buffer<Quad> const& old_spring,
                        exec::Buffer<Quad>& spring);
@@ -72,8 +78,7 @@ private:
     WallPairs pairs_, old_;
     exec::Buffer<std::uint64_t> seen_;  ///< what the first look at the walls found, for the second
     exec::Buffer<Touch> touches_;       ///< room for the touches of particles with many pairs
-    exec::Buffer<std::int32_t> near_;   ///< particles that have pairs: all others cost nothing
-    exec::Buffer<Quad> wall_force_;     ///< on each of them
+    exec::Buffer<Quad> force_;          ///< of each pair [N]; w: 1 where it touches, or where it may hold a spring
     Quad total_force_{0, 0, 0, 0};
 };
 
