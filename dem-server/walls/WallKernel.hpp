@@ -73,8 +73,8 @@ struct WallFinder
     Quad const* position;
     Quad* force;  ///< of each pair [N]; w: 1 where it touches
 
-    /// Finds the touches of pairs [begin, end) of a particle at x, its radius x.w; returns where they are: `at_hand`, or
-    /// the places of a particle with many.
+    /// Finds the touches of pairs [begin, end) of a particle at x, its radius x.w; returns where they are: `at_hand`,
+    /// or the places of a particle with many.
     GIMDEM_HD Touch const* operator()(Quad const& x, std::int32_t begin, std::int32_t end, Touch* at_hand,
                                       std::int32_t& count) const
     {
@@ -173,8 +173,8 @@ private:
             Touch const& touch = touches[t];
             if (!touch.counts) continue;
             if (found.is_full()) compute(found);
-            int const place = found.add(i, touch.pair, find.pairs.row[touch.pair],
-                                        Quad::of(touch.normal.vec(), touch.overlap));
+            int const place =
+                found.add(i, touch.pair, find.pairs.row[touch.pair], Quad::of(touch.normal.vec(), touch.overlap));
             std::int32_t const body = find.nearby.walls.surfaces[touch.surface].body;
             if (!find.nearby.walls.bodies[body].moves) continue;
             WallPose const& pose = find.nearby.poses[body];
