@@ -12,6 +12,7 @@
 #include "engine/CoupledEngine.hpp"
 #include "engine/Settling.hpp"
 #include "engine/StartChecks.hpp"
+#include "engine/WallStartCheck.hpp"
 #include "gimdem/coupling/Server.hpp"
 #include "particles/Insertion.hpp"
 
@@ -112,6 +113,7 @@ public:
 
     void start()
     {
+        check_particles_against_walls(system_.particles(), walls_);
         settle_or_load(settings_, execution_, walls_, mesh_, system_, log_.progress());
         Vec3 const up = upward(settings_);
         log_.summary().add("settled_height", bed_height(system_.particles(), mesh_, up), "m");

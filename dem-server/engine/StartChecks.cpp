@@ -38,12 +38,15 @@ double shortest_linear_contact(Case const& settings, Materials const& materials,
         if (pair != nullptr && inverse_mass > 0)
             shortest = std::min(shortest, LinearSpringDashpot::duration(pair->normal_stiffness, 1 / inverse_mass));
     };
-    int const wall = materials.number_of(settings.walls.material);
+    std::vector<int> wall_materials{materials.number_of(settings.walls.material)};
+    for (WallItemSettings const& wall : settings.wall)
+        if (!wall.material.empty()) wall_materials.push_back(materials.number_of(wall.material));
     for (int a = 0; a < materials.count(); ++a)
     {
         double const mass_a = lightest[static_cast<std::size_t>(a)];
         if (mass_a == none) continue;
-        meet(a, wall, 1 / mass_a);
+        for (int const wall : wall_materials)
+            meet(a, wall, 1 / mass_a);
         for (int b = 0; b <= a; ++b)
             if (lightest[static_cast<std::size_t>(b)] != none)
                 meet(a, b, 1 / mass_a + 1 / lightest[static_cast<std::size_t>(b)]);

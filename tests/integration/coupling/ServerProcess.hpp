@@ -29,6 +29,7 @@ struct SmallCase
     double timeout = patient;       ///< of the server [s]
     double connect_time = patient;  ///< of the server [s]
     std::string schedule = "serial";
+    std::string more;  ///< of the case file
 
     static constexpr int particle_count = 300;
     static constexpr double diameter = 2e-3;          ///< [m]
@@ -53,7 +54,8 @@ struct SmallCase
                "box = [[0.006, 0.006, 0.01], [0.054, 0.054, 0.11]]\nspacing = 6e-3\njitter = 5e-4\n"
                "[fluid_forces]\ndrag = \"beetstra\"\npressure_gradient = false\n"
                "[mapping]\nmethod = \"gim\"\n"
-               "[output]\nparticle_interval = 0.0\n";
+               "[output]\nparticle_interval = 0.0\n" +
+               more;
     }
 };
 
