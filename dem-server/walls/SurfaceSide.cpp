@@ -67,8 +67,7 @@ int SurfaceSide::winding(Vec3 const& y) const
     {
         WallTriangle const& t = triangles_[static_cast<std::size_t>(k)];
         Vec3 const a = t.a.xyz(), b = t.b.xyz(), c = t.c.xyz();
-        int const turns =
-            crossing(a, b, y.x(), y.y()) + crossing(b, c, y.x(), y.y()) + crossing(c, a, y.x(), y.y());
+        int const turns = crossing(a, b, y.x(), y.y()) + crossing(b, c, y.x(), y.y()) + crossing(c, a, y.x(), y.y());
         if (turns != 0 && height(a, b, c, y.x(), y.y()) > y.z()) count += turns;
     }
     return count;

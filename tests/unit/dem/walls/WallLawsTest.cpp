@@ -86,8 +86,7 @@ std::vector<Sphere> crowd(int count)
     std::vector<Sphere> spheres;
     for (int k = 0; k < count; ++k)
         spheres.push_back({2.1e-3 * Vec3(k % 8 + 0.5, k / 8 % 8 + 0.5, k / 64 + 0.5) + 1e-4 * Vec3(k % 3, k % 7, k % 5),
-                           1e-3,
-                           0.05 * Vec3(k % 5 - 2, k % 3 - 1, k % 4 - 2)});
+                           1e-3, 0.05 * Vec3(k % 5 - 2, k % 3 - 1, k % 4 - 2)});
     return spheres;
 }
 
@@ -103,8 +102,8 @@ TEST(AllKindsOfWalls, ThreadsDoNotChangeABit)
     auto tube = tube_wall(0.0125, true);
     tube.point = {0.009, 0, 0.009};
     tube.rotation = {{0, 1, 0}, {0.009, 0, 0.009}, 30};
-    gimdem::Case settings = WallScene::made({plane_wall({0, 0, 0}, {0, -0.02, 1}), shaken, tube, blade}, 9.81, 0.7,
-                                            0.4, 1.2e5);
+    gimdem::Case settings =
+        WallScene::made({plane_wall({0, 0, 0}, {0, -0.02, 1}), shaken, tube, blade}, 9.81, 0.7, 0.4, 1.2e5);
     settings.dem.rolling_friction = "epsd";
     settings.dem.cohesion = "sjkr";
     settings.contacts[0].rolling_friction = 0.05;
