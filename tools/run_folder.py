@@ -26,6 +26,16 @@ def make_run_folder(case: CaseDescription, output: str | None) -> Path:
     return folder
 
 
+def latest_checkpoint(case: CaseDescription) -> Path:
+    """The newest checkpoint of the newest run of a case that has one."""
+    for run in sorted((case.folder / "runs").glob("[0-9]*"), reverse=True):
+        found = sorted((run / "checkpoints").glob("step_*.h5"))
+        if found:
+            return found[-1]
+    raise UserError(f"no run of {shown(case.folder)} left a checkpoint (--restart latest goes on from one); run it "
+                    "from the start, or give the checkpoint's path", 2)
+
+
 def next_numbered(parent: Path) -> Path:
     """parent/0001, 0002, ...; two runs that start at once get two numbers."""
     try:
@@ -49,6 +59,7 @@ def copy_case(case: CaseDescription, folder: Path) -> None:
     if (case.folder / REFERENCE).exists():
         shutil.copy2(case.folder / REFERENCE, folder / REFERENCE)
     for name in ("0", "constant", "system"):
-        shutil.copytree(case.folder / name, folder / name)
+        if (case.folder / name).is_dir():
+            shutil.copytree(case.folder / name, folder / name)
     if case.grid:
         shutil.copy2(case.folder / "system" / f"blockMeshDict.{case.grid}", folder / "system" / "blockMeshDict")

@@ -10,6 +10,7 @@
 #include "app/RunLog.hpp"
 #include "core/Error.hpp"
 #include "engine/CoupledEngine.hpp"
+#include "engine/InletFlow.hpp"
 #include "engine/Settling.hpp"
 #include "engine/StartChecks.hpp"
 #include "gimdem/coupling/Server.hpp"
@@ -102,7 +103,8 @@ public:
           execution_(execution_for(settings, schedule_)),
           mesh_(take_mesh(server)),
           walls_(mesh_, settings.walls.also,
-                 largest_radius(particles) + settings.dem.skin * smallest_radius(particles)),
+                 largest_radius(settings, particles) + settings.dem.skin * smallest_radius(settings, particles)),
+          inlets_(make_inlets(settings, materials)),
           system_(settings, execution_, materials, walls_, std::move(particles)),
           folder_(folder),
           log_(settings, folder, mesh_, system_, client, schedule_),
@@ -116,6 +118,7 @@ public:
         Vec3 const up = upward(settings_);
         log_.summary().add("settled_height", bed_height(system_.particles(), mesh_, up), "m");
         log_.summary().add("settled_height_2z", 2 * centre_of_mass_height(system_.particles(), mesh_, up), "m");
+        engine_.set_inlets(inlets_);
         engine_.map_initial_state();
         server_.accept_mesh(engine_.fields());
     }
@@ -148,6 +151,7 @@ private:
     exec::Execution execution_;
     PolyMesh mesh_;
     WallGeometry walls_;
+    std::vector<Inlet> inlets_;
     DemSystem system_;
     std::filesystem::path folder_;
     RunLog log_;

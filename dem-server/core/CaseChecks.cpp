@@ -107,11 +107,16 @@ void check_pairs_in_use(Case const& input, Document const& document)
                             "\" (particles of one can touch the other); add [[contacts]] with pair = " + to_text(pair) +
                             ", restitution = 0.9, friction = 0.3");
     };
-    for (auto const& first : input.insertion)
+    std::set<std::string> used;
+    for (auto const& insertion : input.insertion)
+        used.insert(insertion.material);
+    for (auto const& inlet : input.inlets)
+        used.insert(inlet.material);
+    for (auto const& first : used)
     {
-        require(first.material, input.walls.material);
-        for (auto const& second : input.insertion)
-            require(first.material, second.material);
+        require(first, input.walls.material);
+        for (auto const& second : used)
+            require(first, second);
     }
 }
 
@@ -122,6 +127,19 @@ void check_insertions(Case const& input, Document const& document)
         auto const& insertion = input.insertion[i];
         check_material_exists(insertion.material, entry("insertion", i, "material"), input, document);
         check_insertion(insertion, i, document);
+    }
+}
+
+void check_inlets(Case const& input, Document const& document)
+{
+    if (input.insertion.empty() && input.inlets.empty())
+        throw UserError(document.file +
+                        ": [[insertion]] is missing (which particles there are at the start; or [[inlets]]: which "
+                        "come later); add [[insertion]] with material = \"bead\"");
+    for (std::size_t i = 0; i < input.inlets.size(); ++i)
+    {
+        check_material_exists(input.inlets[i].material, entry("inlets", i, "material"), input, document);
+        check_inlet(input.inlets[i], i, document);
     }
 }
 
@@ -153,7 +171,9 @@ void check_case(Case const& input, Document const& document)
     check_material_names(input, document);
     check_contacts(input, document);
     check_material_exists(input.walls.material, "walls.material", input, document);
+    check_domain(input, document);
     check_insertions(input, document);
+    check_inlets(input, document);
     check_pairs_in_use(input, document);
     check_output(input.output, document);
 }

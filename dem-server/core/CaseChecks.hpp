@@ -32,6 +32,18 @@ std::string entry(std::string const& list, std::size_t index, std::string const&
 /// effect, or would insert overlapping particles.
 void check_insertion(InsertionSettings const& insertion, std::size_t index, Document const& document);
 
+/// Throw UserError where [insertion.sizes] or [inlets.sizes], at `path`, is no distribution, or where not just one of
+/// it and `diameter` is given.
+void check_sizes(std::optional<SizeSettings> const& sizes, double diameter, std::string const& path,
+                 std::string const& list, Document const& document);
+
+/// Throw UserError where [[inlets]] number `index` has no region, or more than one.
+void check_inlet(InletSettings const& inlet, std::size_t index, Document const& document);
+
+/// Throw UserError where [domain] is empty, absent in a run without a fluid or there in another, or where a run without
+/// a fluid has settings that it cannot have.
+void check_domain(Case const& input, Document const& document);
+
 /// Throw UserError where settings contradict each other or name what does not exist.
 void check_case(Case const& input, Document const& document);
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/Error.hpp"
+#include "particles/SizeDistribution.hpp"
 #include "search/NeighborList.hpp"
 
 namespace gimdem
@@ -22,7 +23,11 @@ double shortest_rayleigh_time(Materials const& materials, ParticleState const& p
 
 void check_time_step(Case const& settings, Materials const& materials, ParticleState const& particles)
 {
-    double const rayleigh = shortest_rayleigh_time(materials, particles);
+    double rayleigh = shortest_rayleigh_time(materials, particles);
+    for (InletSettings const& inlet : settings.inlets)
+        rayleigh =
+            std::min(rayleigh, materials.rayleigh_time(materials.number_of(inlet.material),
+                                                       SizeDistribution(inlet.diameter, inlet.sizes).smallest() / 2));
     double const share = settings.dem.time_step / rayleigh;
     if (share <= rayleigh_share_limit) return;
     throw UserError(fmt::format(

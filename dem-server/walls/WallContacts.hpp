@@ -44,6 +44,7 @@ public:
 
     WallPairs& pairs() { return pairs_; }
     WallPairs const& pairs() const { return pairs_; }
+    std::int32_t plane_count() const { return walls_.plane_count(); }
 
     /// Force of the walls on each particle in the last add_forces [N]; w: number of contacts.
     exec::Buffer<Quad> const& force_on_particles() const { return wall_force_; }

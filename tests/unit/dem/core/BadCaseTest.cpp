@@ -80,7 +80,7 @@ Mistake const mistakes[] = {
     {"VoidFractionMinimumOne", "minimum = 0.1", "minimum = 1.0",
      "case.toml:47: \"void_fraction_minimum\" in [mapping] is 1 (must be in (0, 1)); write e.g. void_fraction_minimum = 0.1"},
     {"ZeroSkin", "skin = 0.2", "skin = 0.0",
-     "case.toml:15: \"skin\" in [dem] is 0 (must be in (0, 1]); write e.g. skin = 0.1"},
+     "case.toml:15: \"skin\" in [dem] is 0 (must be in (0, 1]); write e.g. skin = 0.3"},
     {"ZeroSampleInterval", "1e-3\nplanes", "0.0\nplanes",
      "case.toml:49: \"sample_interval\" in [output] is 0 (must be > 0 s); write e.g. sample_interval = 1e-3"},
     {"NegativeThreads", "threads = 2", "threads = -1",

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "core/CaseChecks.hpp"
+#include "core/CaseText.hpp"
+#include "core/Error.hpp"
+
+namespace gimdem::case_file
+{
+
+namespace
+{
+
+/// [insertion.sizes] or [inlets.sizes], with the messages for keys that are missing or have no effect.
+class SizesCheck
+{
+public:
+    SizesCheck(SizeSettings const& sizes, std::string const& path, std::string const& list, Document const& document)
+        : sizes_(sizes), path_(path), section_("[" + list + ".sizes]"), document_(document)
+    {
+    }
+
+    void operator()() const
+    {
+        bool const list = sizes_.distribution == "discrete";
+        bool const bell = sizes_.distribution == "normal" || sizes_.distribution == "lognormal";
+        for (auto const* key : {"minimum", "maximum"})
+            demand(key, !list);
+        for (auto const* key : {"mean", "deviation"})
+            demand(key, bell);
+        for (auto const* key : {"diameters", "mass_fractions"})
+            demand(key, list);
+        if (list)
+            check_list();
+        else if (!(sizes_.minimum < sizes_.maximum))
+            fail("maximum", "is not above minimum (no diameter lies between them)", "raise maximum or lower minimum");
+    }
+
+private:
+    void demand(std::string const& key, bool needed) const
+    {
+        bool const given = document_.has(path_ + '.' + key);
+        std::string const why = " (the distribution is \"" + sizes_.distribution + "\")";
+        if (needed && !given) fail(key, "is missing" + why, "add it");
+        if (!needed && given) fail(key, "has no effect" + why, "remove it or change distribution");
+    }
+
+    void check_list() const
+    {
+        if (sizes_.diameters.empty() || sizes_.diameters.size() != sizes_.mass_fractions.size())
+            fail("mass_fractions",
+                 "has " + to_text(sizes_.mass_fractions.size()) + " entries, diameters has " +
+                     to_text(sizes_.diameters.size()) + " (each diameter has one share)",
+                 "give as many of one as of the other");
+        double const sum = std::accumulate(sizes_.mass_fractions.begin(), sizes_.mass_fractions.end(), 0.0);
+        // Shares are written with a few digits: a sum that is off by less than a thousandth is meant to be 1.
+        if (std::abs(sum - 1) > 1e-3)
+            fail("mass_fractions", "adds up to " + to_text(sum) + " (shares of the whole add up to 1)",
+                 "correct the shares");
+    }
+
+    [[noreturn]] void fail(std::string const& key, std::string const& problem, std::string const& advice) const
+    {
+        throw UserError(document_.at(path_ + '.' + key) + ": \"" + key + "\" in " + section_ + ' ' + problem + "; " +
+                        advice);
+    }
+
+    SizeSettings const& sizes_;
+    std::string path_, section_;
+    Document const& document_;
+};
+
+bool is_empty(std::array<Triple, 2> const& box)
+{
+    return !(box[0][0] < box[1][0] && box[0][1] < box[1][1] && box[0][2] < box[1][2]);
+}
+
+}  // namespace
+
+void check_sizes(std::optional<SizeSettings> const& sizes, double diameter, std::string const& path,
+                 std::string const& list, Document const& document)
+{
+    if (sizes.has_value() == (diameter > 0))
+        throw UserError(document.at(path) + (sizes ? ": both \"diameter\" and [" : ": neither \"diameter\" nor [") +
+                        list + ".sizes] are given for [[" + list +
+                        "]] (how large the particles are); give one of them, e.g. diameter = 1.545e-3");
+    if (sizes) SizesCheck(*sizes, path, list, document)();
+}
+
+void check_inlet(InletSettings const& inlet, std::size_t index, Document const& document)
+{
+    auto const path = [&](std::string const& key) { return entry("inlets", index, key); };
+    check_sizes(inlet.sizes, inlet.diameter, path("sizes"), "inlets", document);
+    bool const box = document.has(path("box"));
+    if (box == document.has(path("radius")))
+        throw UserError(document.at(path("box")) + ": " + (box ? "both a box and" : "neither a box nor") +
+                        " a disc are given in [[inlets]] (where the particles appear); give box, or centre, "
+                        "normal and radius");
+    if (box && is_empty(inlet.box))
+        throw UserError(document.at(path("box")) +
+                        ": box in [[inlets]] is empty (the first corner must be the lower one); write e.g. box = "
+                        "[[0.0, 0.0, 0.4], [0.09, 0.008, 0.41]]");
+    if (!box && std::hypot(inlet.normal[0], inlet.normal[1], inlet.normal[2]) == 0)
+        throw UserError(document.at(path("radius")) +
+                        ": the disc of [[inlets]] has no normal (it has no direction); write e.g. normal = [0.0, 0.0, "
+                        "1.0]");
+    if (document.has(path("end")) && !(inlet.start < inlet.end))
+        throw UserError(document.at(path("end")) +
+                        ": end in [[inlets]] is not after start (no particle would come); raise end or lower start");
+}
+
+void check_domain(Case const& input, Document const& document)
+{
+    bool const alone = input.run.client == "none";
+    if (alone != input.domain.has_value())
+        throw UserError(alone ? document.file +
+                                    ": [domain] is missing (a run without a fluid has no mesh that bounds it); add "
+                                    "[domain] with box = [[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]"
+                              : document.at("domain") +
+                                    ": [domain] has no effect (the mesh of the fluid bounds the particles); remove it "
+                                    "or write client = \"none\" in [run]");
+    if (!alone) return;
+    if (is_empty(input.domain->box))
+        throw UserError(document.at("domain.box") +
+                        ": box in [domain] is empty (the first corner must be the lower one); write e.g. box = "
+                        "[[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]");
+    std::set<std::string> const sides{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
+    for (auto const& side : input.domain->open)
+        if (!sides.contains(side))
+            throw UserError(document.at("domain.open") + ": \"" + side +
+                            "\" in open of [domain] is no side of the box; write e.g. open = [\"zmax\"]");
+    for (auto const* const section : {"settle", "fluid_forces", "mapping", "output.planes", "output.inlet"})
+        if (document.has(section))
+            throw UserError(document.at(section) + ": " + section +
+                            " has no effect in a run without a fluid (client is \"none\"); remove it");
+}
+
+}  // namespace gimdem::case_file

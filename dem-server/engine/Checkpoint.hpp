@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Checkpoints: all that the particle side needs to go on as if it had never stopped, theory.md (D.68).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "core/Case.hpp"
+#include "engine/DemSystem.hpp"
+#include "particles/Inlet.hpp"
+
+namespace gimdem
+{
+
+/// Version of what a checkpoint holds; a reader accepts its own only.
+inline constexpr std::int64_t checkpoint_version = 1;
+
+/// Where a run is.
+struct RunPoint
+{
+    std::int64_t step = 0;  ///< time steps so far: of the DEM in a run without a fluid, else coupling steps
+    double time = 0;        ///< [s]
+};
+
+/// Writes the checkpoint, whole or not at all, then has the system build its neighbour list anew, as the run that
+/// starts from the checkpoint will.
+void write_checkpoint(std::filesystem::path const& file, Case const& settings, RunPoint const& point,
+                      std::vector<Inlet> const& inlets, DemSystem& system);
+
+/// Puts a checkpoint in place of the state of a system and the inlets that were made from the same case. Throws
+/// UserError for a file that is cut short, changed, of another version or of another case; nothing is changed then.
+RunPoint read_checkpoint(std::filesystem::path const& file, Case const& settings, std::vector<Inlet>& inlets,
+                         DemSystem& system);
+
+/// checkpoints/step_000000123.h5 in a run folder.
+std::filesystem::path checkpoint_file(std::filesystem::path const& folder, std::int64_t step);
+
+/// Removes all but the two newest checkpoints of a run folder.
+void keep_newest_checkpoints(std::filesystem::path const& folder);
+
+}  // namespace gimdem

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/StateFile.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/Error.hpp"
+
+namespace gimdem
+{
+
+namespace
+{
+
+std::span<double const> numbers(exec::Buffer<Quad> const& quads)
+{
+    if (quads.size() == 0) return {};
+    return {&quads.host().data()->x, 4 * static_cast<std::size_t>(quads.size())};
+}
+
+template <class T>
+void put(std::vector<T> const& values, exec::Buffer<T>& to)
+{
+    to.resize(std::ssize(values));
+    std::copy(values.begin(), values.end(), to.host().begin());
+}
+
+void put(std::vector<double> const& values, exec::Buffer<Quad>& to)
+{
+    to.resize(std::ssize(values) / 4);
+    if (!values.empty()) std::copy(values.begin(), values.end(), &to.host().data()->x);
+}
+
+/// A list of lists with a spring for each member.
+struct Springs
+{
+    std::vector<std::int32_t> offsets, partner;
+    std::vector<double> spring;
+
+    /// Whether it has a row for each particle (or none at all: never built), and partners below `limit`.
+    bool fits(std::size_t count, std::int64_t limit) const
+    {
+        bool const rows = offsets.empty() ? partner.empty()
+                                          : offsets.size() == count + 1 && offsets.front() == 0 &&
+                                                std::is_sorted(offsets.begin(), offsets.end()) &&
+                                                offsets.back() == std::ssize(partner);
+        return rows && spring.size() == 4 * partner.size() &&
+               std::all_of(partner.begin(), partner.end(), [=](std::int32_t p) { return 0 <= p && p < limit; });
+    }
+};
+
+}  // namespace
+
+void add_state(output::SnapshotWriter& writer, DemSystem const& system)
+{
+    ParticleState const& p = system.particles();
+    NeighborList const& pairs = system.neighbors();
+    WallPairs const& walls = system.walls().pairs();
+    writer.add("position", numbers(p.position), 4);
+    writer.add("velocity", numbers(p.velocity), 4);
+    writer.add("angular_velocity", numbers(p.angular_velocity), 4);
+    writer.add("material", p.material.host());
+    writer.add("id", p.id.host());
+    writer.add("pair_offsets", pairs.row_offsets.host());
+    writer.add("pair_second", pairs.second.host());
+    writer.add("pair_spring", numbers(pairs.displacement), 4);
+    writer.add("wall_offsets", walls.offsets.host());
+    writer.add("wall_plane", walls.plane.host());
+    writer.add("wall_spring", numbers(walls.displacement), 4);
+}
+
+void take_state(output::SnapshotReader const& reader, int materials, DemSystem& system)
+{
+    auto const ids = reader.int64s("id");
+    auto const position = reader.doubles("position"), velocity = reader.doubles("velocity"),
+               spin = reader.doubles("angular_velocity");
+    auto const material = reader.int32s("material");
+    Springs const of_pairs{reader.int32s("pair_offsets"), reader.int32s("pair_second"), reader.doubles("pair_spring")};
+    Springs const of_walls{reader.int32s("wall_offsets"), reader.int32s("wall_plane"), reader.doubles("wall_spring")};
+    std::size_t const n = ids.size();
+    bool const fits =
+        position.size() == 4 * n && velocity.size() == 4 * n && spin.size() == 4 * n && material.size() == n &&
+        of_pairs.fits(n, std::ssize(ids)) && of_walls.fits(n, system.walls().plane_count()) &&
+        std::all_of(material.begin(), material.end(), [=](std::int32_t m) { return 0 <= m && m < materials; });
+    if (!fits)
+        throw UserError(
+            "the state's arrays do not fit each other or the case (another case wrote it); nothing was "
+            "taken from it");
+
+    ParticleState& p = system.particles();
+    p.resize(std::ssize(ids));
+    put(position, p.position);
+    put(velocity, p.velocity);
+    put(spin, p.angular_velocity);
+    put(material, p.material);
+    put(ids, p.id);
+    NeighborList& pairs = system.neighbors();
+    put(of_pairs.offsets, pairs.row_offsets);
+    put(of_pairs.partner, pairs.second);
+    put(of_pairs.spring, pairs.displacement);
+    WallPairs& walls = system.walls().pairs();
+    put(of_walls.offsets, walls.offsets);
+    put(of_walls.partner, walls.plane);
+    put(of_walls.spring, walls.displacement);
+    system.take_count();
+    system.rebuild();
+}
+
+}  // namespace gimdem
