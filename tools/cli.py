@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import bench_dem
 import run_case
 from build import build
 from console import ROOT, UserError, build_dir, say, shown
@@ -31,6 +32,7 @@ def parser() -> argparse.ArgumentParser:
     add("test", run_tests, f"build everything and run the tests, except {SKIPPED_LABELS}; further options go to ctest")
     bench = add("bench", run_benchmarks, "run the benchmarks")
     bench.add_argument("name", nargs="?", help="only this one")
+    bench_dem.add_options(bench)
     figures = add("figures", show_figures, "print the figures of a run, or of two side by side")
     figures.add_argument("run", metavar="RUN_DIR", type=Path)
     figures.add_argument("compare", metavar="RUN_DIR2", type=Path, nargs="?")
@@ -58,6 +60,8 @@ def run_tests(options: argparse.Namespace) -> int:
 
 def run_benchmarks(options: argparse.Namespace) -> int:
     build_all(options)
+    if options.name == "dem":
+        return bench_dem.run(options)
     found = {path.name: path for path in sorted((build_dir() / "bin").glob("*benchmark*"))}
     if options.name:
         found = {name: path for name, path in found.items() if options.name in name}

@@ -40,8 +40,8 @@ public:
           row_steps_(steps_of(settings.output.sample_interval, dt_)),
           frame_steps_(steps_of(settings.output.particle_interval, dt_)),
           checkpoint_steps_(steps_of(settings.output.checkpoint_interval, dt_)),
-          mesh_(box_mesh(*settings.domain)),
-          bounds_(*settings.domain),
+          mesh_(box_mesh(settings.domain)),
+          bounds_(settings.domain),
           walls_(mesh_, settings.walls.also,
                  largest_radius(settings, particles) + settings.dem.skin * smallest_radius(settings, particles)),
           inlets_(make_inlets(settings, materials)),
@@ -127,7 +127,8 @@ void run_alone(Case const& settings, std::filesystem::path const& folder,
     Materials const materials(settings);
     ParticleState particles = insert_particles(settings, materials);
     check_time_step(settings, materials, particles);
-    check_overlaps(exec::make_execution(settings.dem.backend, settings.dem.threads), particles);
+    check_overlaps(exec::make_execution(settings.dem.backend, settings.dem.threads), particles,
+                   Domain::of(settings.domain));
     DemRun alone(settings, folder, materials, std::move(particles));
     if (restart) alone.restart(*restart);
     alone.run();

@@ -163,11 +163,13 @@ private:
 
 void run(Case const& settings, std::filesystem::path const& folder)
 {
+    refuse_periodic_coupled_run(settings);
     std::filesystem::create_directories(folder);
     Materials const materials(settings);
     ParticleState particles = insert_particles(settings, materials);
     check_time_step(settings, materials, particles);
-    check_overlaps(exec::make_execution(settings.dem.backend, settings.dem.threads), particles);
+    check_overlaps(exec::make_execution(settings.dem.backend, settings.dem.threads), particles,
+                   Domain::of(settings.domain));
 
     coupling::Server server({.endpoint = settings.coupling.endpoint,
                              .name = "gimdem-server " GIMDEM_VERSION,

@@ -2,7 +2,10 @@
 /// Hertz-Mindlin contact with viscous damping and Coulomb friction, theory.md (D.5)-(D.12).
 #pragma once
 
+#include <string_view>
+
 #include "contact/ContactGeometry.hpp"
+#include "contact/TangentialSpring.hpp"
 #include "exec/VectorMath.hpp"
 #include "particles/Materials.hpp"
 
@@ -29,40 +32,34 @@ struct HertzMindlin
 
         // Normal: Hertz spring and dashpot, (D.6), (D.7).
         Real const v_n = contact.velocity.dot(contact.normal);
-        Real const normal_force = 2.0 / 3.0 * normal_stiffness * contact.overlap - normal_dashpot * v_n;
+        Real const secant = 2.0 / 3.0 * normal_stiffness;
+        Real const normal_force = secant * contact.overlap - normal_dashpot * v_n;
 
-        // Tangential: turn the spring with the contact plane, stretch it, (D.9), (D.10).
+        // Tangential, (D.9)-(D.12).
         Vector3<Real> const v_t = contact.velocity - v_n * contact.normal;
-        turn_into_plane(contact.normal, displacement);
-        displacement = displacement + broadcast<Real>(dt) * v_t;
-
-        // Coulomb: a sliding spring is as long as friction can hold, and has no dashpot, (D.11), (D.12).
-        Real const limit = constants.friction * magnitude(normal_force);
-        Real const spring2 = tangential_stiffness * tangential_stiffness * displacement.dot(displacement);
-        auto const slides = greater(spring2, Real(limit * limit));
-        Real dashpot = tangential_dashpot;
-        if (any(slides))
-        {
-            Real const shortened = limit / root(spring2);
-            displacement = choose(slides, shortened, broadcast<Real>(1)) * displacement;
-            dashpot = choose(slides, broadcast<Real>(0), tangential_dashpot);
-        }
-        Vector3<Real> const tangential = Real(-tangential_stiffness) * displacement - dashpot * v_t;
-        return {normal_force * contact.normal + tangential, tangential};
+        TangentialSpring<Real> const rub{tangential_stiffness, tangential_dashpot,
+                                         constants.friction * magnitude(normal_force)};
+        Vector3<Real> const tangential = rub(contact.normal, v_t, dt, displacement);
+        return {normal_force * contact.normal + tangential, tangential, normal_force, secant};
     }
+};
 
-private:
-    static constexpr double tiny = 1e-300;
+/// The same for the table of laws.
+struct HertzMindlinLaw
+{
+    static constexpr std::string_view name = "hertz-mindlin";
+    template <class Real>
+    using Constants = ContactConstantsOf<Real>;
 
-    /// Remove the normal part, keep the length.
-    GIMDEM_HD static void turn_into_plane(Vector3<Real> const& normal, Vector3<Real>& displacement)
+    static ContactConstants constants(MaterialSettings const& a, MaterialSettings const& b, ContactSettings const& pair)
     {
-        using namespace exec;
-        Real const before = displacement.dot(displacement);
-        displacement = displacement - displacement.dot(normal) * normal;
-        // The smallest numbers keep 0 / 0 away: an unstretched spring stays one.
-        Real const after = displacement.dot(displacement);
-        displacement = root(Real((before + tiny) / (after + tiny))) * displacement;
+        return contact_constants(a, b, pair);
+    }
+    template <class Real, class Given>
+    GIMDEM_HD static ContactForce<Real> apply(Given const& constants, double dt, ContactGeometry<Real> const& contact,
+                                              Vector3<Real>& displacement)
+    {
+        return HertzMindlin<Real, Given>{constants, dt}(contact, displacement);
     }
 };
 

@@ -1,45 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Forces between particles. Each contact is computed once; then each particle sums its contacts in stored order, so
-/// the result does not depend on the number of threads.
+/// Forces between particles. Each contact is computed once, and each particle's sum has one order, whatever the number
+/// of threads (PairKernel).
 #pragma once
 
 #include <cstdint>
 
+#include "contact/ContactModel.hpp"
+#include "contact/PairKernel.hpp"
 #include "exec/Buffer.hpp"
 #include "exec/Execution.hpp"
 #include "particles/Materials.hpp"
 #include "particles/ParticleState.hpp"
+#include "search/Domain.hpp"
 #include "search/NeighborList.hpp"
 
 namespace gimdem
 {
 
-/// What one pair of the list does: one line of the cache.
-struct alignas(64) PairForce
-{
-    Quad force;   ///< on the first particle [N]; of a pair that does not touch it means nothing
-    Quad torque;  ///< normal x tangential force [N], w: overlap [m]
-};
-
 class ParticleContacts
 {
 public:
-    ParticleContacts(exec::Execution execution, Materials const& materials)
-        : execution_(execution), constants_(materials.table()), material_count_(materials.count())
+    /// `one_size`: all particles have one radius and one density.
+    ParticleContacts(exec::Execution execution, Materials const& materials, bool one_size, Domain const& domain = {})
+        : execution_(execution),
+          model_(materials),
+          material_count_(materials.count()),
+          one_size_(one_size),
+          domain_(domain)
     {
     }
+
+    /// To be told anew whenever particles come or go.
+    void set_one_size(bool one_size) { one_size_ = one_size; }
+
+    /// True where the list must carry rolling springs.
+    bool has_rolling_springs() const { return model_.has_rolling_spring(); }
 
     /// Sets force and torque of every particle to the sum over its contacts; advances the tangential springs by dt [s].
     void sum_forces(ParticleState& particles, NeighborList& list, double dt);
 
 private:
-    void compute_pairs(ParticleState& particles, NeighborList& list, double dt);
-    void gather(ParticleState& particles, NeighborList const& list);
-
     exec::Execution execution_;
-    exec::View<ContactConstants const> constants_;
+    ContactModel model_;
     std::int32_t material_count_;
-    exec::Buffer<PairForce> pair_forces_;
+    bool one_size_;
+    Domain domain_;
+    exec::Buffer<BorderForce> border_;
 };
 
 }  // namespace gimdem

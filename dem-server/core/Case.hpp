@@ -36,11 +36,14 @@ struct CouplingSettings
 /// [dem]
 struct DemSettings
 {
-    double time_step = 0;            ///< upper bound [s]
-    Triple gravity{0, 0, 0};         ///< [m/s^2]
-    int threads = 0;                 ///< 0: all cores
-    std::string backend = "openmp";  ///< serial | openmp
-    double skin = 0.3;               ///< of the neighbour list, in units of the smallest radius [1]
+    double time_step = 0;                       ///< upper bound [s]
+    Triple gravity{0, 0, 0};                    ///< [m/s^2]
+    int threads = 0;                            ///< 0: all cores
+    std::string backend = "openmp";             ///< serial | openmp
+    double skin = 0.3;                          ///< of the neighbour list, in units of the smallest radius [1]
+    std::string contact_law = "hertz-mindlin";  ///< one of force_law_names
+    std::string rolling_friction = "none";      ///< one of rolling_law_names
+    std::string cohesion = "none";              ///< one of cohesion_law_names
 };
 
 /// [[materials]]
@@ -58,6 +61,13 @@ struct ContactSettings
     std::array<std::string, 2> pair;
     double restitution = 1;  ///< normal, in [0.05, 1]
     double friction = 0;     ///< Coulomb coefficient of sliding
+
+    // Only where the laws chosen in [dem] need them; check_contact_laws sees to it that they are given.
+    double normal_stiffness = 0;                  ///< k_n of the linear law [N/m]
+    double tangential_stiffness_ratio = 2.0 / 7;  ///< k_t / k_n of the linear law
+    double rolling_friction = 0;                  ///< mu_r
+    double rolling_damping = 0;                   ///< eta_r of EPSD, share of critical
+    double cohesion_energy_density = 0;           ///< [J/m^3]
 };
 
 /// [walls]
@@ -67,11 +77,12 @@ struct WallSettings
     std::vector<std::string> also;  ///< patches that stop particles although the fluid passes
 };
 
-/// [domain]: the box of a run without a fluid, and so without a mesh
+/// [domain]: the box of a run without a fluid, and so without a mesh; and where space repeats itself
 struct DomainSettings
 {
-    std::array<Triple, 2> box{};    ///< corners [m]
-    std::vector<std::string> open;  ///< sides through which particles leave: xmin, xmax, ymin, ... The others are walls
+    std::array<Triple, 2> box{};                        ///< corners [m]
+    std::vector<std::string> open;                      ///< sides through which particles leave: xmin, xmax, ymin, ...
+    std::array<bool, 3> periodic{false, false, false};  ///< along x, y, z. Sides neither open nor periodic are walls
 };
 
 /// [insertion.sizes], [inlets.sizes]: how diameters are distributed, by number, theory.md (D.60)-(D.63)
@@ -174,7 +185,7 @@ struct Case
     std::vector<MaterialSettings> materials;
     std::vector<ContactSettings> contacts;
     WallSettings walls;
-    std::optional<DomainSettings> domain;
+    DomainSettings domain;
     std::vector<InsertionSettings> insertion;
     std::vector<InletSettings> inlets;
     std::optional<SettleSettings> settle;

@@ -170,6 +170,7 @@ void check_case(Case const& input, Document const& document)
     check_grid(input.run, document);
     check_material_names(input, document);
     check_contacts(input, document);
+    check_contact_laws(input, document);
     check_material_exists(input.walls.material, "walls.material", input, document);
     check_domain(input, document);
     check_insertions(input, document);

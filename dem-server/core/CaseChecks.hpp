@@ -40,9 +40,12 @@ void check_sizes(std::optional<SizeSettings> const& sizes, double diameter, std:
 /// Throw UserError where [[inlets]] number `index` has no region, or more than one.
 void check_inlet(InletSettings const& inlet, std::size_t index, Document const& document);
 
-/// Throw UserError where [domain] is empty, absent in a run without a fluid or there in another, or where a run without
-/// a fluid has settings that it cannot have.
+/// Throw UserError where [domain] is empty, contradicts itself, is absent in a run without a fluid or has no effect in
+/// another, or where a run without a fluid has settings that it cannot have.
 void check_domain(Case const& input, Document const& document);
+
+/// Throw UserError where a [[contacts]] misses what the laws chosen in [dem] need, or has what they do not use.
+void check_contact_laws(Case const& input, Document const& document);
 
 /// Throw UserError where settings contradict each other or name what does not exist.
 void check_case(Case const& input, Document const& document);

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
+#include <vector>
 
 #include "core/CaseChecks.hpp"
 #include "core/CaseText.hpp"
@@ -78,6 +78,46 @@ bool is_empty(std::array<Triple, 2> const& box)
     return !(box[0][0] < box[1][0] && box[0][1] < box[1][1] && box[0][2] < box[1][2]);
 }
 
+bool is_periodic(DomainSettings const& domain)
+{
+    return domain.periodic[0] || domain.periodic[1] || domain.periodic[2];
+}
+
+/// A side of the box must exist, and there is none along a periodic axis. `key`: open of [domain] or also of [walls].
+void check_sides(std::vector<std::string> const& names, std::string const& key, DomainSettings const& domain,
+                 std::string const& place)
+{
+    std::vector<std::string> const sides{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
+    for (auto const& name : names)
+    {
+        auto const found = std::find(sides.begin(), sides.end(), name);
+        std::string const side = place + ": \"" + name + "\" in " + key;
+        if (found == sides.end()) throw UserError(side + " is no side of the box; write e.g. \"zmax\"");
+        if (domain.periodic[static_cast<std::size_t>(found - sides.begin()) / 2])
+            throw UserError(side + " has no effect (that axis is periodic); remove it or change periodic");
+    }
+}
+
+/// A run without a fluid: its box, and sections that it cannot have.
+void check_run_alone(Case const& input, Document const& document)
+{
+    DomainSettings const& domain = input.domain;
+    if (!document.has("domain"))
+        throw UserError(document.file +
+                        ": [domain] is missing (a run without a fluid has no mesh that bounds it); add [domain] with "
+                        "box = [[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]");
+    if (is_empty(domain.box))
+        throw UserError(document.at("domain.box") +
+                        ": box in [domain] is empty (the first corner must be the lower one); write e.g. box = "
+                        "[[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]");
+    check_sides(domain.open, "open of [domain]", domain, document.at("domain.open"));
+    check_sides(input.walls.also, "also of [walls]", domain, document.at("walls.also"));
+    for (auto const* const section : {"settle", "fluid_forces", "mapping", "output.planes", "output.inlet"})
+        if (document.has(section))
+            throw UserError(document.at(section) + ": " + section +
+                            " has no effect in a run without a fluid (client is \"none\"); remove it");
+}
+
 }  // namespace
 
 void check_sizes(std::optional<SizeSettings> const& sizes, double diameter, std::string const& path,
@@ -114,28 +154,18 @@ void check_inlet(InletSettings const& inlet, std::size_t index, Document const& 
 
 void check_domain(Case const& input, Document const& document)
 {
-    bool const alone = input.run.client == "none";
-    if (alone != input.domain.has_value())
-        throw UserError(alone ? document.file +
-                                    ": [domain] is missing (a run without a fluid has no mesh that bounds it); add "
-                                    "[domain] with box = [[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]"
-                              : document.at("domain") +
-                                    ": [domain] has no effect (the mesh of the fluid bounds the particles); remove it "
-                                    "or write client = \"none\" in [run]");
-    if (!alone) return;
-    if (is_empty(input.domain->box))
-        throw UserError(document.at("domain.box") +
-                        ": box in [domain] is empty (the first corner must be the lower one); write e.g. box = "
-                        "[[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]");
-    std::set<std::string> const sides{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
-    for (auto const& side : input.domain->open)
-        if (!sides.contains(side))
-            throw UserError(document.at("domain.open") + ": \"" + side +
-                            "\" in open of [domain] is no side of the box; write e.g. open = [\"zmax\"]");
-    for (auto const* const section : {"settle", "fluid_forces", "mapping", "output.planes", "output.inlet"})
-        if (document.has(section))
-            throw UserError(document.at(section) + ": " + section +
-                            " has no effect in a run without a fluid (client is \"none\"); remove it");
+    DomainSettings const& domain = input.domain;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (domain.periodic[axis] && !(domain.box[1][axis] > domain.box[0][axis]))
+            throw UserError(document.at("domain.box") + ": box in [domain] is empty along " + "xyz"[axis] +
+                            " (that axis is periodic, the box tells its period); write e.g. box = [[0.0, 0.0, 0.0], "
+                            "[0.05, 0.05, 0.05]]");
+    if (input.run.client == "none") check_run_alone(input, document);
+    // A periodic coupled run is refused when it starts: what other programs read of a case need not know.
+    else if (document.has("domain") && !is_periodic(domain))
+        throw UserError(document.at("domain") +
+                        ": [domain] has no effect (the mesh of the fluid bounds the particles); remove it or write "
+                        "client = \"none\" in [run]");
 }
 
 }  // namespace gimdem::case_file

@@ -187,6 +187,17 @@ void read(Node const& node, std::array<std::string, 2>& target)
     target = {to_string(node, pair[0]), to_string(node, pair[1])};
 }
 
+void read(Node const& node, std::array<bool, 3>& target)
+{
+    auto const& flags = to_array(node, node.value, 3);
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+        auto const flag = flags[i].value_exact<bool>();
+        if (!flag) fail_type(node);
+        target[i] = *flag;
+    }
+}
+
 void read(Node const& node, std::vector<std::string>& target)
 {
     if (!node.value.is_array()) fail_type(node);

@@ -2,6 +2,7 @@
 #include "core/CaseSettings.hpp"
 
 #include "core/CaseTable.hpp"
+#include "core/ContactLawNames.hpp"
 
 namespace gimdem
 {
@@ -22,7 +23,7 @@ Fields<Case> const& settings_of(Case const&)
         required("materials",    &Case::materials,    "what particles and walls are made of"),
         required("contacts",     &Case::contacts,     "how two materials touch"),
         required("walls",        &Case::walls,        "what bounds the particles"),
-        optional("domain",       &Case::domain,       "the box of a run without a fluid"),
+        optional("domain",       &Case::domain,       "the box of a run without a fluid, and where space repeats itself"),
         optional("insertion",    &Case::insertion,    "which particles there are at the start"),
         optional("inlets",       &Case::inlets,       "particles that come during the run"),
         optional("settle",       &Case::settle,       "particles fall and come to rest before the fluid starts"),
@@ -72,6 +73,12 @@ Fields<DemSettings> const& settings_of(DemSettings const&)
         optional("backend",   &S::backend,   "", one_of({"serial", "openmp"}), "\"openmp\"", "what runs the loops"),
         optional("skin",      &S::skin,      "", fraction(0, 1), "0.3",
                  "of the neighbour list, in units of the smallest radius"),
+        optional("contact_law", &S::contact_law, "", one_of(words(force_law_names)), "\"linear\"",
+                 "force between surfaces: Hertz-Mindlin, or linear spring and dashpot"),
+        optional("rolling_friction", &S::rolling_friction, "", one_of(words(rolling_law_names)), "\"cdt\"",
+                 "resistance to rolling: constant torque, or elastic-plastic spring and dashpot"),
+        optional("cohesion", &S::cohesion, "", one_of(words(cohesion_law_names)), "\"sjkr\"",
+                 "attraction in contact: simplified JKR"),
     };
     return fields;
 }
@@ -98,6 +105,16 @@ Fields<ContactSettings> const& settings_of(ContactSettings const&)
         required("restitution", &S::restitution, "", within(0.05, 1), "0.9",
                  "normal speed after over before a collision"),
         required("friction",    &S::friction,    "", at_least(0), "0.3", "Coulomb's coefficient of sliding"),
+        optional("normal_stiffness", &S::normal_stiffness, "N/m", above(0), "1000.0",
+                 "spring of contact_law linear, needed there"),
+        optional("tangential_stiffness_ratio", &S::tangential_stiffness_ratio, "", fraction(0, 1), "0.286",
+                 "tangential over normal spring of contact_law linear"),
+        optional("rolling_friction", &S::rolling_friction, "", at_least(0), "0.05",
+                 "coefficient of rolling friction, needed where [dem] has such a law"),
+        optional("rolling_damping", &S::rolling_damping, "", at_least(0), "0.3",
+                 "share of critical damping, needed for rolling_friction epsd"),
+        optional("cohesion_energy_density", &S::cohesion_energy_density, "J/m^3", at_least(0), "5e4",
+                 "attraction per area of contact, needed where [dem] has cohesion"),
     };
     return fields;
 }
@@ -110,6 +127,20 @@ Fields<WallSettings> const& settings_of(WallSettings const&)
                  "what the wall patches of the mesh are made of"),
         optional("also",     &S::also,     "", anything(), "[\"inlet\"]",
                  "patches that stop particles although the fluid passes"),
+    };
+    return fields;
+}
+
+Fields<DomainSettings> const& settings_of(DomainSettings const&)
+{
+    using S = DomainSettings;
+    static Fields<S> const fields = {
+        optional("box",      &S::box,      "m", anything(), "[[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]",
+                 "lower and upper corner; needed"),
+        optional("open",     &S::open,     "", anything(), "[\"zmax\"]",
+                 "sides through which particles leave, of xmin, xmax, ymin, ymax, zmin, zmax; the others are walls"),
+        optional("periodic", &S::periodic, "", anything(), "[true, true, false]",
+                 "along x, y, z: what leaves the box on one side comes in on the other; no walls there"),
     };
     return fields;
 }
@@ -176,17 +207,6 @@ Fields<SizeSettings> const& settings_of(SizeSettings const&)
         optional("diameters",      &S::diameters,      "m", above(0), "[1e-3, 2e-3]", "of the discrete sizes"),
         optional("mass_fractions", &S::mass_fractions, "", above(0), "[0.4, 0.6]",
                  "share of each discrete size in the mass; they add up to 1"),
-    };
-    return fields;
-}
-
-Fields<DomainSettings> const& settings_of(DomainSettings const&)
-{
-    using S = DomainSettings;
-    static Fields<S> const fields = {
-        required("box",  &S::box,  "m", anything(), "[[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]", "lower and upper corner"),
-        optional("open", &S::open, "", anything(), "[\"zmax\"]",
-                 "sides through which particles leave, of xmin, xmax, ymin, ymax, zmin, zmax; the others are walls"),
     };
     return fields;
 }

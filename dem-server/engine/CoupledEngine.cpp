@@ -196,7 +196,6 @@ void CoupledEngine::check_balance(double dt, StepReport& report) const
     Impulse const* const impulse = system_.impulses().view().data;
     Quad const* const x = system_.particles().position.view().data;
     Vec3 const drag = vector_sum(execution_, n, [=](std::int64_t p) { return Vec3(impulse[p].drag.xyz() / dt); });
-    Vec3 const wall = vector_sum(execution_, n, [=](std::int64_t p) { return Vec3(impulse[p].wall.xyz() / dt); });
     double const magnitude =
         exec::sum(execution_, n, [=](std::int64_t p) { return impulse[p].drag.xyz().norm() / dt; });
     double const solid = exec::sum(execution_, n, [=](std::int64_t p) { return sphere_volume(x[p].w); });
@@ -210,7 +209,7 @@ void CoupledEngine::check_balance(double dt, StepReport& report) const
     double const mapped = exec::sum(execution_, mesh_.cell_count(), [=](std::int64_t c) { return solid_volume[c]; });
 
     report.drag_force = constant(drag);
-    report.wall_force = constant(wall);
+    report.wall_force = constant(system_.wall_impulse() / dt);
     report.momentum_imbalance = magnitude > 0 ? (given + drag).norm() / magnitude : 0;
     report.volume_imbalance = solid > 0 ? std::abs(mapped - solid) / solid : 0;
 }

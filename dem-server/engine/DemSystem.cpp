@@ -17,12 +17,13 @@ DemSystem::DemSystem(Case const& settings, exec::Execution execution, Materials 
     : execution_(execution),
       gravity_{settings.dem.gravity[0], settings.dem.gravity[1], settings.dem.gravity[2]},
       particles_(std::move(particles)),
-      search_(execution, settings.dem.skin * smallest_radius(settings, particles_)),
-      particle_contacts_(execution, materials),
+      search_(execution, settings.dem.skin * smallest_radius(settings, particles_), Domain::of(settings.domain)),
+      particle_contacts_(execution, materials, have_one_size(particles_), Domain::of(settings.domain)),
       wall_contacts_(execution, materials, materials.number_of(settings.walls.material), walls)
 {
     for (std::int64_t const id : particles_.id.host())
         next_id_ = std::max(next_id_, id + 1);
+    neighbors_.carries_rolling = particle_contacts_.has_rolling_springs();
     impulses_.resize(particles_.count());
     impulses_.fill({});
 }
@@ -37,6 +38,7 @@ void DemSystem::begin_coupling_step(FluidOnParticles const* fluid)
 {
     fluid_ = fluid;
     impulses_.fill({});
+    wall_impulse_.setZero();
     update_fluid_loads();
 }
 
@@ -69,9 +71,14 @@ void DemSystem::step(double dt)
 
 void DemSystem::half_kick(double h)
 {
-    exec::for_each(execution_, particles_.count(),
-                   HalfKick{particles_.view(), wall_contacts_.force_on_particles().view().data,
-                            fluid_ == nullptr ? nullptr : loads_.view().data, impulses_.view().data, gravity_, h});
+    Quad const gravity{gravity_.x, gravity_.y, gravity_.z, 0};
+    wall_impulse_ += h * wall_contacts_.total_force();
+    if (fluid_ == nullptr)
+        exec::for_each(execution_, particles_.count(),
+                       HalfKick<false>{particles_.view(), nullptr, nullptr, gravity, h});
+    else
+        exec::for_each(execution_, particles_.count(),
+                       HalfKick<true>{particles_.view(), loads_.view().data, impulses_.view().data, gravity, h});
 }
 
 void DemSystem::drift(double dt)
@@ -84,7 +91,7 @@ void DemSystem::update_neighbors()
     if (!search_.is_stale(particles_, neighbors_)) return;
     auto const order = search_.build(particles_, neighbors_);
     wall_contacts_.build(particles_, search_.skin(), order);
-    permute(impulses_, order);
+    permute(execution_, impulses_, order);
     if (on_permutation_) on_permutation_(order);
     ++rebuilds_;
 }
@@ -99,6 +106,14 @@ void DemSystem::update_fluid_loads()
 {
     if (fluid_ != nullptr)
         fluid_->forces.apply(particles_, fluid_->mesh, fluid_->cell_of, fluid_->void_fraction, loads_);
+}
+
+bool have_one_size(ParticleState const& particles)
+{
+    for (std::int64_t i = 1; i < particles.count(); ++i)
+        if (particles.position[i].w != particles.position[0].w || particles.velocity[i].w != particles.velocity[0].w)
+            return false;
+    return true;
 }
 
 double smallest_radius(ParticleState const& particles)

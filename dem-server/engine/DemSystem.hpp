@@ -88,6 +88,8 @@ public:
     WallContacts& walls() { return wall_contacts_; }
     WallContacts const& walls() const { return wall_contacts_; }
     exec::Buffer<Impulse> const& impulses() const { return impulses_; }
+    /// Time integral of the walls' force on all particles over the coupling step so far [N s].
+    Vec3 wall_impulse() const { return wall_impulse_; }
     std::int64_t rebuilds() const { return rebuilds_; }
 
     /// Particles change places when the neighbour list is rebuilt, and numbers when some are added or removed:
@@ -115,11 +117,15 @@ private:
     FluidOnParticles const* fluid_ = nullptr;
     exec::Buffer<FluidLoad> loads_;
     exec::Buffer<Impulse> impulses_;
+    Vec3 wall_impulse_ = Vec3::Zero();
     std::function<void(std::span<std::int32_t const>)> on_permutation_;
     std::int64_t rebuilds_ = 0;
     std::int64_t next_id_ = 0;
     RemovedByCause removed_;
 };
+
+/// True for particles that share one radius and one mass.
+bool have_one_size(ParticleState const& particles);
 
 /// Smallest radius of a set of particles [m]; 0 for none.
 double smallest_radius(ParticleState const& particles);

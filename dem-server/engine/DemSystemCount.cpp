@@ -21,12 +21,14 @@ void add_rows(exec::Buffer<std::int32_t>& offsets, std::int64_t before, std::int
         offsets[i] = offsets[before];
 }
 
-/// Keeps the rows `kept` of a list of pairs, and of these the entries that `renumber` gives a number >= 0.
+/// Keeps the rows `kept` of a list of pairs, and of these the entries that `renumber` gives a number >= 0. `rolling` is
+/// empty where no law has such springs.
 template <class Renumber>
 void keep_rows(exec::Buffer<std::int32_t>& offsets, exec::Buffer<std::int32_t>& partner, exec::Buffer<Quad>& spring,
-               std::span<std::int32_t const> kept, std::int64_t before, Renumber renumber)
+               exec::Buffer<Quad>& rolling, std::span<std::int32_t const> kept, std::int64_t before, Renumber renumber)
 {
     if (offsets.size() != before + 1) return;
+    bool const rolls = rolling.size() > 0;
     std::int32_t written = 0;
     std::int64_t row = 0;
     for (std::int32_t const i : kept)
@@ -38,6 +40,7 @@ void keep_rows(exec::Buffer<std::int32_t>& offsets, exec::Buffer<std::int32_t>& 
             std::int32_t const number = renumber(partner[k]);
             if (number < 0) continue;
             partner[written] = number;
+            if (rolls) rolling[written] = rolling[k];
             spring[written++] = spring[k];
         }
     }
@@ -45,6 +48,7 @@ void keep_rows(exec::Buffer<std::int32_t>& offsets, exec::Buffer<std::int32_t>& 
     offsets.resize(row + 1);
     partner.resize(written);
     spring.resize(written);
+    if (rolls) rolling.resize(written);
 }
 
 }  // namespace
@@ -90,13 +94,14 @@ std::int64_t DemSystem::remove(std::span<std::int32_t const> cause, std::vector<
     std::int64_t const after = std::ssize(kept);
     if (after == before) return 0;
 
-    keep_rows(neighbors_.row_offsets, neighbors_.second, neighbors_.displacement, kept, before,
-              [&](std::int32_t j) { return new_number[static_cast<std::size_t>(j)]; });
+    keep_rows(neighbors_.row_offsets, neighbors_.second, neighbors_.displacement, neighbors_.rolling_spring, kept,
+              before, [&](std::int32_t j) { return new_number[static_cast<std::size_t>(j)]; });
     WallPairs& walls = wall_contacts_.pairs();
-    keep_rows(walls.offsets, walls.plane, walls.displacement, kept, before, [](std::int32_t plane) { return plane; });
-    particles_.permute(kept);
+    keep_rows(walls.offsets, walls.plane, walls.displacement, walls.rolling_spring, kept, before,
+              [](std::int32_t plane) { return plane; });
+    particles_.permute(execution_, kept);
     particles_.resize(after);
-    permute(impulses_, kept);
+    permute(execution_, impulses_, kept);
     impulses_.resize(after);
     if (on_permutation_) on_permutation_(kept);
     rebuild();
@@ -114,6 +119,7 @@ void DemSystem::take_count()
 
 void DemSystem::rebuild()
 {
+    particle_contacts_.set_one_size(have_one_size(particles_));
     // Stale for any number of particles; none at all have no list to build.
     neighbors_.built_at.resize(0);
     if (particles_.count() == 0)

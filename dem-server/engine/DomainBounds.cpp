@@ -8,7 +8,7 @@
 namespace gimdem
 {
 
-DomainBounds::DomainBounds(DomainSettings const& domain) : box_(domain.box)
+DomainBounds::DomainBounds(DomainSettings const& domain) : box_(domain.box), periodic_(domain.periodic)
 {
     for (std::size_t side = 0; side < 6; ++side)
     {
@@ -23,6 +23,7 @@ std::int32_t DomainBounds::side_left(Quad const& x) const
     for (std::size_t side = 0; side < 6; ++side)
     {
         std::size_t const axis = side / 2;
+        if (periodic_[axis]) continue;
         double const beyond = side % 2 == 0 ? box_[0][axis] - at[axis] : at[axis] - box_[1][axis];
         if (beyond > (open_[side] ? 0 : x.w)) return static_cast<std::int32_t>(side);
     }

@@ -14,7 +14,8 @@ namespace gimdem
 {
 
 /// Removes particles that left the box: through an open side as soon as the centre is beyond it, through a wall once it
-/// is beyond by a radius.
+/// is beyond by a radius. A periodic axis has no sides: the search for neighbours moves those beyond it to the other
+/// end.
 class DomainBounds
 {
 public:
@@ -27,6 +28,7 @@ private:
     std::int32_t side_left(Quad const& x) const;  ///< -1: none
 
     std::array<Triple, 2> box_;
+    std::array<bool, 3> periodic_;
     std::array<bool, 6> open_{};
     std::vector<std::string> causes_;
 };

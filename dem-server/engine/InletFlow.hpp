@@ -16,7 +16,7 @@ inline std::vector<Inlet> make_inlets(Case const& settings, Materials const& mat
 {
     std::vector<Inlet> inlets;
     for (InletSettings const& inlet : settings.inlets)
-        inlets.emplace_back(inlet, materials);
+        inlets.emplace_back(inlet, materials, Domain::of(settings.domain));
     return inlets;
 }
 

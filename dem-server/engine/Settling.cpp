@@ -46,6 +46,17 @@ std::string description(Case const& settings)
         add(i.sizes->distribution, i.sizes->minimum, i.sizes->maximum, i.sizes->mean, i.sizes->deviation);
         add(case_file::to_text(i.sizes->diameters), case_file::to_text(i.sizes->mass_fractions));
     }
+    DemSettings const& laws = settings.dem;
+    if (laws.contact_law != "hertz-mindlin" || laws.rolling_friction != "none" || laws.cohesion != "none")
+    {
+        add(laws.contact_law, laws.rolling_friction, laws.cohesion);
+        for (ContactSettings const& c : settings.contacts)
+            add(c.normal_stiffness, c.tangential_stiffness_ratio, c.rolling_friction, c.rolling_damping,
+                c.cohesion_energy_density);
+    }
+    if (Domain::of(settings.domain).is_periodic())
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            add(settings.domain.periodic[axis], settings.domain.box[0][axis], settings.domain.box[1][axis]);
     if (settings.settle) add(settings.settle->duration, settings.settle->kinetic_energy);
     return text;
 }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
+#include "contact/LinearSpringDashpot.hpp"
 #include "core/Error.hpp"
 #include "particles/SizeDistribution.hpp"
 #include "search/NeighborList.hpp"
@@ -21,8 +23,62 @@ double shortest_rayleigh_time(Materials const& materials, ParticleState const& p
     return shortest;
 }
 
+double shortest_linear_contact(Case const& settings, Materials const& materials, ParticleState const& particles)
+{
+    constexpr double none = std::numeric_limits<double>::infinity();
+    std::vector<double> lightest(static_cast<std::size_t>(materials.count()), none);
+    for (std::int64_t p = 0; p < particles.count(); ++p)
+    {
+        double& mass = lightest[static_cast<std::size_t>(particles.material[p])];
+        mass = std::min(mass, 1 / particles.velocity[p].w);
+    }
+    for (InletSettings const& inlet : settings.inlets)
+    {
+        int const material = materials.number_of(inlet.material);
+        double const radius = SizeDistribution(inlet.diameter, inlet.sizes).smallest() / 2;
+        double& mass = lightest[static_cast<std::size_t>(material)];
+        mass = std::min(mass, materials[material].density * sphere_volume(radius));
+    }
+    double shortest = none;
+    auto const meet = [&](int a, int b, double inverse_mass)
+    {
+        ContactSettings const* pair = materials.contact(a, b);
+        if (pair != nullptr && inverse_mass > 0)
+            shortest = std::min(shortest, LinearSpringDashpot::duration(pair->normal_stiffness, 1 / inverse_mass));
+    };
+    int const wall = materials.number_of(settings.walls.material);
+    for (int a = 0; a < materials.count(); ++a)
+    {
+        double const mass_a = lightest[static_cast<std::size_t>(a)];
+        if (mass_a == none) continue;
+        meet(a, wall, 1 / mass_a);
+        for (int b = 0; b <= a; ++b)
+            if (lightest[static_cast<std::size_t>(b)] != none)
+                meet(a, b, 1 / mass_a + 1 / lightest[static_cast<std::size_t>(b)]);
+    }
+    return shortest;
+}
+
+namespace
+{
+
+void check_against_linear_contact(Case const& settings, double contact)
+{
+    double const share = settings.dem.time_step / contact;
+    if (share <= contact_share_limit) return;
+    throw UserError(fmt::format(
+        "[dem] time_step = {:.6g} s is {:.3g} % of the shortest contact, {:.6g} s (above {:.0f} % the contacts are not "
+        "resolved and the restitution is wrong); use at most {:.3g} s, better 2 to 5 % of the contact, or a smaller "
+        "normal_stiffness",
+        settings.dem.time_step, 100 * share, contact, 100 * contact_share_limit, contact_share_limit * contact));
+}
+
+}  // namespace
+
 void check_time_step(Case const& settings, Materials const& materials, ParticleState const& particles)
 {
+    if (settings.dem.contact_law == LinearSpringDashpot::name)
+        return check_against_linear_contact(settings, shortest_linear_contact(settings, materials, particles));
     double rayleigh = shortest_rayleigh_time(materials, particles);
     for (InletSettings const& inlet : settings.inlets)
         rayleigh =
@@ -37,16 +93,19 @@ void check_time_step(Case const& settings, Materials const& materials, ParticleS
         settings.dem.time_step, 100 * share, rayleigh, 100 * rayleigh_share_limit, rayleigh_share_limit * rayleigh));
 }
 
-void check_overlaps(exec::Execution execution, ParticleState const& particles)
+void check_overlaps(exec::Execution execution, ParticleState const& particles, Domain const& domain)
 {
     ParticleState sorted = particles;
     NeighborList list;
-    NeighborSearch(execution, 0).build(sorted, list);
+    NeighborSearch(execution, 0, domain).build(sorted, list);
+    PeriodicSpace const space = domain.space();
     for (std::int64_t k = 0; k < list.pair_count(); ++k)
     {
         Quad const a = sorted.position[list.first[k]];
         Quad const b = sorted.position[list.second[k]];
-        double const overlap = a.w + b.w - (a.xyz() - b.xyz()).norm();
+        Vec3 between = a.xyz() - b.xyz();
+        space.shorten(between.x(), between.y(), between.z());
+        double const overlap = a.w + b.w - between.norm();
         if (overlap <= 0.01 * 2 * std::min(a.w, b.w)) continue;
         throw UserError(
             fmt::format("particles {} and {} overlap by {:.3g} m at ({:.6g}, {:.6g}, {:.6g}) m from the start "
@@ -54,6 +113,14 @@ void check_overlaps(exec::Execution execution, ParticleState const& particles)
                         "file",
                         sorted.id[list.first[k]], sorted.id[list.second[k]], overlap, a.x, a.y, a.z));
     }
+}
+
+void refuse_periodic_coupled_run(Case const& settings)
+{
+    if (!Domain::of(settings.domain).is_periodic()) return;
+    throw UserError(
+        "[domain] periodic is set in a coupled run (the client's mesh has no periodic patches that the "
+        "particles could pass through); remove [domain], or run the particles alone");
 }
 
 }  // namespace gimdem

@@ -36,6 +36,8 @@ struct Springs
 {
     std::vector<std::int32_t> offsets, partner;
     std::vector<double> spring;
+    bool rolls = false;           ///< whether there are rolling springs as well
+    std::vector<double> rolling;  ///< of each member too, else empty
 
     /// Whether it has a row for each particle (or none at all: never built), and partners below `limit`.
     bool fits(std::size_t count, std::int64_t limit) const
@@ -44,7 +46,7 @@ struct Springs
                                           : offsets.size() == count + 1 && offsets.front() == 0 &&
                                                 std::is_sorted(offsets.begin(), offsets.end()) &&
                                                 offsets.back() == std::ssize(partner);
-        return rows && spring.size() == 4 * partner.size() &&
+        return rows && spring.size() == 4 * partner.size() && rolling.size() == (rolls ? spring.size() : 0) &&
                std::all_of(partner.begin(), partner.end(), [=](std::int32_t p) { return 0 <= p && p < limit; });
     }
 };
@@ -64,6 +66,11 @@ void add_state(output::SnapshotWriter& writer, DemSystem const& system)
     writer.add("pair_offsets", pairs.row_offsets.host());
     writer.add("pair_second", pairs.second.host());
     writer.add("pair_spring", numbers(pairs.displacement), 4);
+    if (pairs.carries_rolling)
+    {
+        writer.add("pair_rolling_spring", numbers(pairs.rolling_spring), 4);
+        writer.add("wall_rolling_spring", numbers(walls.rolling_spring), 4);
+    }
     writer.add("wall_offsets", walls.offsets.host());
     writer.add("wall_plane", walls.plane.host());
     writer.add("wall_spring", numbers(walls.displacement), 4);
@@ -75,8 +82,14 @@ void take_state(output::SnapshotReader const& reader, int materials, DemSystem& 
     auto const position = reader.doubles("position"), velocity = reader.doubles("velocity"),
                spin = reader.doubles("angular_velocity");
     auto const material = reader.int32s("material");
-    Springs const of_pairs{reader.int32s("pair_offsets"), reader.int32s("pair_second"), reader.doubles("pair_spring")};
-    Springs const of_walls{reader.int32s("wall_offsets"), reader.int32s("wall_plane"), reader.doubles("wall_spring")};
+    bool const rolls = system.neighbors().carries_rolling;
+    auto const springs = [&](char const* offsets, char const* partner, char const* spring, char const* rolling)
+    {
+        return Springs{reader.int32s(offsets), reader.int32s(partner), reader.doubles(spring), rolls,
+                       rolls ? reader.doubles(rolling) : std::vector<double>{}};
+    };
+    Springs const of_pairs = springs("pair_offsets", "pair_second", "pair_spring", "pair_rolling_spring");
+    Springs const of_walls = springs("wall_offsets", "wall_plane", "wall_spring", "wall_rolling_spring");
     std::size_t const n = ids.size();
     bool const fits =
         position.size() == 4 * n && velocity.size() == 4 * n && spin.size() == 4 * n && material.size() == n &&
@@ -98,10 +111,12 @@ void take_state(output::SnapshotReader const& reader, int materials, DemSystem& 
     put(of_pairs.offsets, pairs.row_offsets);
     put(of_pairs.partner, pairs.second);
     put(of_pairs.spring, pairs.displacement);
+    put(of_pairs.rolling, pairs.rolling_spring);
     WallPairs& walls = system.walls().pairs();
     put(of_walls.offsets, walls.offsets);
     put(of_walls.partner, walls.plane);
     put(of_walls.spring, walls.displacement);
+    put(of_walls.rolling, walls.rolling_spring);
     system.take_count();
     system.rebuild();
 }

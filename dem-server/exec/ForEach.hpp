@@ -3,6 +3,7 @@
 /// with different indices must not write the same place, so that any order and any thread count give the same bits.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 
@@ -34,7 +35,8 @@ void for_each_uneven(Execution const& execution, Index count, Kernel kernel)
 {
     static_assert(std::is_trivially_copyable_v<Kernel>, "a kernel must be a trivially copyable functor over views");
     if (execution.backend == Backend::serial || execution.threads == 1) return for_each(execution, count, kernel);
-#pragma omp parallel for schedule(dynamic, 64) num_threads(execution.threads)
+    Index const some = std::max<Index>(1, count / (16 * execution.threads));
+#pragma omp parallel for schedule(dynamic, some) num_threads(execution.threads)
     for (Index i = 0; i < count; ++i)
         kernel(i);
 }

@@ -101,20 +101,35 @@ inline OctetOfQuads load(Quad const* values, std::int32_t const* place)
             octet_of(__builtin_shufflevector(zw0, zw4, 4, 5, 6, 7, 12, 13, 14, 15))};
 }
 
-/// values[place[i]] <- lane i, in rising order of lanes. `stride`: distance of two places in Quads.
-inline void store(OctetOfQuads const& from, Quad* values, std::int32_t const* place, int stride = 1)
+namespace detail
 {
-    using namespace detail;
+
+/// at(lane) <- the lane's quadruple, in rising order of lanes.
+template <class At>
+void store_each(OctetOfQuads const& from, At at)
+{
     Eight const x = eight_of(from.x), y = eight_of(from.y), z = eight_of(from.z), w = eight_of(from.w);
     Eight const xy0 = __builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11),
                 xy4 = __builtin_shufflevector(x, y, 4, 12, 5, 13, 6, 14, 7, 15),
                 zw0 = __builtin_shufflevector(z, w, 0, 8, 1, 9, 2, 10, 3, 11),
                 zw4 = __builtin_shufflevector(z, w, 4, 12, 5, 13, 6, 14, 7, 15);
-    auto const to = [=](int lane) -> Quad& { return values[static_cast<std::int64_t>(place[lane]) * stride]; };
-    store_two(__builtin_shufflevector(xy0, zw0, 0, 1, 8, 9, 2, 3, 10, 11), to(0), to(1));
-    store_two(__builtin_shufflevector(xy0, zw0, 4, 5, 12, 13, 6, 7, 14, 15), to(2), to(3));
-    store_two(__builtin_shufflevector(xy4, zw4, 0, 1, 8, 9, 2, 3, 10, 11), to(4), to(5));
-    store_two(__builtin_shufflevector(xy4, zw4, 4, 5, 12, 13, 6, 7, 14, 15), to(6), to(7));
+    store_two(__builtin_shufflevector(xy0, zw0, 0, 1, 8, 9, 2, 3, 10, 11), at(0), at(1));
+    store_two(__builtin_shufflevector(xy0, zw0, 4, 5, 12, 13, 6, 7, 14, 15), at(2), at(3));
+    store_two(__builtin_shufflevector(xy4, zw4, 0, 1, 8, 9, 2, 3, 10, 11), at(4), at(5));
+    store_two(__builtin_shufflevector(xy4, zw4, 4, 5, 12, 13, 6, 7, 14, 15), at(6), at(7));
+}
+
+}  // namespace detail
+
+/// values[place[i]] <- lane i.
+inline void store(OctetOfQuads const& from, Quad* values, std::int32_t const* place)
+{
+    detail::store_each(from, [=](int lane) -> Quad& { return values[place[lane]]; });
+}
+/// values[i] <- lane i.
+inline void store(OctetOfQuads const& from, Quad* values)
+{
+    detail::store_each(from, [=](int lane) -> Quad& { return values[lane]; });
 }
 
 }  // namespace gimdem::exec

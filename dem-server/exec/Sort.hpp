@@ -26,6 +26,9 @@ inline std::int64_t exclusive_scan(std::span<std::int32_t> counts)
     return counts.empty() ? 0 : counts.back();
 }
 
+/// The same on all threads.
+std::int64_t exclusive_scan(Execution const& execution, std::span<std::int32_t> counts);
+
 /// Members grouped by key, in rising order within a key (stable): members of key k are
 /// members[offsets[k]] ... members[offsets[k + 1] - 1].
 struct Groups
@@ -36,5 +39,8 @@ struct Groups
 
 /// Group 0..keys.size()-1 by keys[i] in [0, n_keys).
 void group_by_key(std::span<std::int32_t const> keys, std::int64_t n_keys, Groups& groups);
+
+/// The same on all threads.
+void group_by_key(Execution const& execution, std::span<std::int32_t const> keys, std::int64_t n_keys, Groups& groups);
 
 }  // namespace gimdem::exec

@@ -28,6 +28,20 @@ struct alignas(32) Quad
     GIMDEM_HD static Quad of(Vec3 const& v, double w) { return {v.x(), v.y(), v.z(), w}; }
 };
 
+// Component by component, w too.
+GIMDEM_HD inline Quad operator+(Quad const& a, Quad const& b)
+{
+    return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
+}
+GIMDEM_HD inline Quad operator-(Quad const& a, Quad const& b)
+{
+    return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
+}
+GIMDEM_HD inline Quad operator*(double f, Quad const& a)
+{
+    return {f * a.x, f * a.y, f * a.z, f * a.w};
+}
+
 /// Three components of any kind of number: of one vector (Real = double) or of eight (Real = exec::Octet). What laws
 /// are written with that serve both.
 template <class Real>

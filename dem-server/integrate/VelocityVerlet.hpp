@@ -12,36 +12,38 @@ namespace gimdem
 {
 
 /// v <- v at the end of half a step h of the acceleration force/m + g + (k/m)(v_f - v), the drag taken at the end.
+/// With `fluid` false there are no loads and no impulses.
+template <bool fluid>
 struct HalfKick
 {
     ParticleView particles;
-    Quad const* wall_force;  ///< part of `force`, for the balance
-    FluidLoad const* loads;  ///< null: no fluid
+    FluidLoad const* loads;
     Impulse* impulses;
-    Constant3 gravity;  ///< [m/s^2]
-    double h;           ///< half the time step [s]
+    Quad gravity;  ///< [m/s^2], w: 0
+    double h;      ///< half the time step [s]
 
     GIMDEM_HD void operator()(std::int64_t i) const
     {
         Quad& v = particles.velocity[i];
-        Vec3 force = particles.force[i].xyz();
-        Impulse& impulse = impulses[i];
-        impulse.wall.set_xyz(impulse.wall.xyz() + h * wall_force[i].xyz());
-        if (loads != nullptr)
+        double const inverse_mass = v.w;
+        if constexpr (fluid)
         {
             FluidLoad const& load = loads[i];
             double const k = load.fluid_velocity.w;
-            Vec3 const v_f = load.fluid_velocity.xyz();
-            force += load.steady.xyz();
-            Vec3 const kicked = v.xyz() + h * (force * v.w + gravity.vec()) + h * k * v.w * v_f;
-            v.set_xyz(kicked / (1 + h * k * v.w));
-            impulse.drag = Quad::of(impulse.drag.xyz() + h * k * (v_f - v.xyz()), impulse.drag.w + h * k);
+            Quad const v_f = {load.fluid_velocity.x, load.fluid_velocity.y, load.fluid_velocity.z, 0};
+            Quad const force = particles.force[i] + load.steady;
+            Quad const kicked = v + h * (inverse_mass * force + gravity) + (h * k * inverse_mass) * v_f;
+            v = 1 / (1 + h * k * inverse_mass) * kicked;
+            v.w = inverse_mass;
+            Quad drag = (h * k) * (v_f - v);
+            drag.w = h * k;
+            impulses[i].drag = impulses[i].drag + drag;
         }
         else
-            v.set_xyz(v.xyz() + h * (force * v.w + gravity.vec()));
+            v = v + h * (inverse_mass * particles.force[i] + gravity);
 
         Quad& spin = particles.angular_velocity[i];
-        spin.set_xyz(spin.xyz() + h * spin.w * particles.torque[i].xyz());
+        spin = spin + (h * spin.w) * particles.torque[i];
     }
 };
 
@@ -54,7 +56,9 @@ struct Drift
     GIMDEM_HD void operator()(std::int64_t i) const
     {
         Quad& x = particles.position[i];
-        x.set_xyz(x.xyz() + dt * particles.velocity[i].xyz());
+        Quad step = dt * particles.velocity[i];
+        step.w = 0;
+        x = x + step;
     }
 };
 

@@ -15,7 +15,8 @@ inline constexpr std::array<char const*, 6> side_names{"xmin", "xmax", "ymin", "
 
 bool is_open(DomainSettings const& domain, std::size_t side);
 
-/// One cell with a patch for each side: kind open for those that [domain] names, wall for the others.
+/// One cell with a patch for each side: kind open for those that [domain] names, cyclic (no wall) along
+/// periodic axes, where the cell is longer by half a period at both ends, wall for the others.
 coupling::Mesh box_mesh(DomainSettings const& domain);
 
 }  // namespace gimdem

@@ -23,8 +23,9 @@ Vec3 vector(Triple const& t)
 
 }  // namespace
 
-Inlet::Inlet(InletSettings const& settings, Materials const& materials)
+Inlet::Inlet(InletSettings const& settings, Materials const& materials, Domain const& domain)
     : settings_(settings),
+      domain_(domain),
       material_(materials.number_of(settings.material)),
       density_(materials[material_].density),
       sizes_(settings.diameter, settings.sizes),
@@ -75,8 +76,12 @@ std::vector<SphereSeed> Inlet::take(double time, ParticleState const& present)
     OverlapGrid grid(low_, high_, largest);
     Vec3 const reach = Vec3::Constant(largest + largest_radius());
     for (Quad const& x : present.position.host())
-        if ((x.xyz() - (low_ - reach)).minCoeff() > 0 && ((high_ + reach) - x.xyz()).minCoeff() > 0)
-            grid.add(x.xyz(), x.w);
+        visit_images(x.xyz(),
+                     [&](Vec3 const& image)
+                     {
+                         if ((image - (low_ - reach)).minCoeff() > 0 && ((high_ + reach) - image).minCoeff() > 0)
+                             grid.add(image, x.w);
+                     });
 
     RandomStream random(state_.random);
     std::vector<SphereSeed> seeds;
@@ -88,7 +93,7 @@ std::vector<SphereSeed> Inlet::take(double time, ParticleState const& present)
         while (grid.overlaps(x, radius) && ++attempt <= most_attempts)
             x = random_place(radius, random);
         if (attempt > most_attempts) break;
-        grid.add(x, radius);
+        visit_images(x, [&](Vec3 const& image) { grid.add(image, radius); });
         seeds.push_back({x, radius, vector(settings_.velocity)});
         ++state_.inserted;
         state_.mass += next_mass();
@@ -96,6 +101,18 @@ std::vector<SphereSeed> Inlet::take(double time, ParticleState const& present)
     }
     state_.random = random.state();
     return seeds;
+}
+
+/// Calls visit with x and, along periodic axes, its images one period away.
+template <class Visit>
+void Inlet::visit_images(Vec3 const& x, Visit&& visit) const
+{
+    Vec3 const period = domain_.period.vec();
+    Eigen::Vector3i const most = (period.array() > 0).cast<int>();
+    for (int k = -most.z(); k <= most.z(); ++k)
+        for (int j = -most.y(); j <= most.y(); ++j)
+            for (int i = -most.x(); i <= most.x(); ++i)
+                visit(Vec3(x + period.cwiseProduct(Vec3(i, j, k))));
 }
 
 Vec3 Inlet::random_place(double radius, RandomStream& random) const

@@ -9,6 +9,7 @@
 #include "particles/Materials.hpp"
 #include "particles/SizeDistribution.hpp"
 #include "particles/SphereSeed.hpp"
+#include "search/Domain.hpp"
 
 namespace gimdem
 {
@@ -29,12 +30,12 @@ struct InletState
 class Inlet
 {
 public:
-    Inlet(InletSettings const& settings, Materials const& materials);
+    Inlet(InletSettings const& settings, Materials const& materials, Domain const& domain = {});
 
     /// True where particles are to come at `time` [s].
     bool is_due(double time) const;
 
-    /// The particles that come at `time`, none of which overlaps one that is there.
+    /// The particles that come at `time`, none of which overlaps one that is there, across a periodic border too.
     std::vector<SphereSeed> take(double time, ParticleState const& present);
 
     int material() const { return material_; }
@@ -53,7 +54,11 @@ private:
     double next_mass() const { return density_ * sphere_volume(state_.next_diameter / 2); }
     Vec3 random_place(double radius, RandomStream& random) const;
 
+    template <class Visit>
+    void visit_images(Vec3 const& x, Visit&& visit) const;
+
     InletSettings settings_;
+    Domain domain_;
     int material_;
     double density_;
     SizeDistribution sizes_;

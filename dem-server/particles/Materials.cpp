@@ -28,17 +28,23 @@ ContactConstants contact_constants(MaterialSettings const& a, MaterialSettings c
             .root_stiffness_ratio = std::sqrt(4 * shear_eff / young_eff)};
 }
 
-Materials::Materials(Case const& settings) : settings_(settings.materials)
+Materials::Materials(Case const& settings)
+    : settings_(settings.materials), contacts_(settings.contacts), dem_(settings.dem)
 {
-    int const n = count();
-    table_.resize(n * n);
-    table_.fill({});
-    for (ContactSettings const& contact : settings.contacts)
-    {
-        int const a = number_of(contact.pair[0]);
-        int const b = number_of(contact.pair[1]);
-        table_[a * n + b] = table_[b * n + a] = contact_constants((*this)[a], (*this)[b], contact);
-    }
+    for (ContactSettings const& contact : contacts_)
+        for (std::string const& name : contact.pair)
+            number_of(name);
+}
+
+ContactSettings const* Materials::contact(int a, int b) const
+{
+    std::string const& first = (*this)[a].name;
+    std::string const& second = (*this)[b].name;
+    for (ContactSettings const& contact : contacts_)
+        if ((contact.pair[0] == first && contact.pair[1] == second) ||
+            (contact.pair[0] == second && contact.pair[1] == first))
+            return &contact;
+    return nullptr;
 }
 
 int Materials::number_of(std::string_view name) const

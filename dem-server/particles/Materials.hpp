@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/Case.hpp"
-#include "exec/Buffer.hpp"
 
 namespace gimdem
 {
@@ -33,7 +32,7 @@ using ContactConstants = ContactConstantsOf<double>;
 ContactConstants contact_constants(MaterialSettings const& a, MaterialSettings const& b,
                                    ContactSettings const& contact);
 
-/// All pairs, as a square table that kernels index by [material of i * count + material of j].
+/// The materials of a case, and how they touch.
 class Materials
 {
 public:
@@ -42,14 +41,17 @@ public:
     int count() const { return static_cast<int>(settings_.size()); }
     MaterialSettings const& operator[](int material) const { return settings_[static_cast<std::size_t>(material)]; }
     int number_of(std::string_view name) const;  ///< throws UserError for a name that is not there
-    exec::View<ContactConstants const> table() const { return table_.view(); }
+    /// What was said of two materials in contact; null where nothing was.
+    ContactSettings const* contact(int a, int b) const;
+    DemSettings const& laws() const { return dem_; }  ///< the choice of contact laws
 
     /// Rayleigh time [s] of a sphere of this material, theory.md (D.14): pi r sqrt(rho/G) / (0.1631 nu + 0.8766).
     double rayleigh_time(int material, double radius) const;
 
 private:
     std::vector<MaterialSettings> settings_;
-    exec::Buffer<ContactConstants> table_;
+    std::vector<ContactSettings> contacts_;
+    DemSettings dem_;
 };
 
 }  // namespace gimdem

@@ -21,15 +21,15 @@ void ParticleState::resize(std::int64_t count)
     id.resize(count);
 }
 
-void ParticleState::permute(std::span<std::int32_t const> order)
+void ParticleState::permute(exec::Execution const& execution, std::span<std::int32_t const> order)
 {
-    gimdem::permute(position, order);
-    gimdem::permute(velocity, order);
-    gimdem::permute(angular_velocity, order);
-    gimdem::permute(force, order);
-    gimdem::permute(torque, order);
-    gimdem::permute(material, order);
-    gimdem::permute(id, order);
+    gimdem::permute(execution, position, order);
+    gimdem::permute(execution, velocity, order);
+    gimdem::permute(execution, angular_velocity, order);
+    gimdem::permute(execution, force, order);
+    gimdem::permute(execution, torque, order);
+    gimdem::permute(execution, material, order);
+    gimdem::permute(execution, id, order);
 }
 
 double ParticleState::volume(std::int64_t i) const

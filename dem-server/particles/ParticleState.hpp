@@ -6,6 +6,7 @@
 #include <span>
 
 #include "exec/Buffer.hpp"
+#include "exec/ForEach.hpp"
 #include "exec/Vector.hpp"
 
 namespace gimdem
@@ -23,11 +24,10 @@ struct ParticleView
     std::int64_t count;
 };
 
-/// What a particle received over a coupling step: kept for the momentum exchange and the balance.
+/// What a particle received over a coupling step: kept for the momentum exchange.
 struct Impulse
 {
     Quad drag;  ///< time integral of the drag force [N s], w: of its coefficient k [kg]
-    Quad wall;  ///< time integral of the walls' force [N s]
 };
 
 /// Owns the arrays. Everything here, in this order, is what a restart needs of the particles.
@@ -46,7 +46,7 @@ struct ParticleState
     void resize(std::int64_t count);
 
     /// Put the particle that was at order[i] at i.
-    void permute(std::span<std::int32_t const> order);
+    void permute(exec::Execution const& execution, std::span<std::int32_t const> order);
 
     double volume(std::int64_t i) const;  ///< [m^3]
     double mass(std::int64_t i) const;    ///< [kg]
@@ -65,6 +65,17 @@ void permute(exec::Buffer<T>& values, std::span<std::int32_t const> order)
     exec::Buffer<T> const old = values;
     for (std::size_t i = 0; i < order.size(); ++i)
         values[static_cast<std::int64_t>(i)] = old[order[i]];
+}
+
+/// The same on all threads.
+template <class T>
+void permute(exec::Execution const& execution, exec::Buffer<T>& values, std::span<std::int32_t const> order)
+{
+    exec::Buffer<T> permuted(static_cast<std::int64_t>(order.size()));
+    exec::for_each(execution, permuted.size(),
+                   [to = permuted.view(), from = values.view(), from_place = order.data()](std::int64_t i)
+                   { to[i] = from[from_place[i]]; });
+    swap(values, permuted);
 }
 
 }  // namespace gimdem

@@ -16,7 +16,10 @@ struct CellGrid
     std::int32_t nx = 1, ny = 1, nz = 1;
 
     /// Grid over [low, high] with cubes of `cell_size` or, where that would make more than `most_cells`, larger ones.
-    static CellGrid over(Vec3 const& low, Vec3 const& high, double cell_size, std::int64_t most_cells);
+    /// Along axes where `whole_cells` is not zero the box holds a whole number of cells, the last of which is longer
+    /// where the length is no multiple of the cell size: what a periodic axis needs.
+    static CellGrid over(Vec3 const& low, Vec3 const& high, double cell_size, std::int64_t most_cells,
+                         Constant3 const& whole_cells = {0, 0, 0});
 
     GIMDEM_HD std::int64_t count() const { return static_cast<std::int64_t>(nx) * ny * nz; }
 
@@ -29,7 +32,7 @@ struct CellGrid
         return (cz * ny + cy) * nx + cx;
     }
 
-private:
+    /// Number along one axis, of n cells, of the cell at `distance` [m] from the origin, or the nearest.
     GIMDEM_HD std::int32_t along(double distance, std::int32_t n) const
     {
         double const cell = distance / cell_size;

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "search/NeighborList.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <limits>
+#include <type_traits>
 
-#include "core/Error.hpp"
 #include "exec/Reduce.hpp"
+#include "search/CandidateVisitor.hpp"
 
 namespace gimdem
 {
@@ -15,53 +13,29 @@ namespace gimdem
 namespace
 {
 
-/// Visits, in rising order, every j > i in the cell of i and the cells around it. Particles are sorted by cell and
-/// cells along x are consecutive, so each row of three cells is one range of particles.
-struct CandidateVisitor
-{
-    CellGrid grid;
-    std::int32_t const* cell_start;
-    std::int32_t const* cell_of;
-
-    template <class Visit>
-    GIMDEM_HD void operator()(std::int64_t i, Visit&& visit) const
-    {
-        std::int32_t const cell = cell_of[i];
-        std::int32_t const x = cell % grid.nx;
-        std::int32_t const y = cell / grid.nx % grid.ny;
-        std::int32_t const z = cell / grid.nx / grid.ny;
-        std::int32_t const x0 = x > 0 ? x - 1 : 0;
-        std::int32_t const x1 = x + 1 < grid.nx ? x + 1 : x;
-        for (std::int32_t dz = 0; dz <= 1; ++dz)
-            for (std::int32_t dy = dz == 0 ? 0 : -1; dy <= 1; ++dy)
-            {
-                if (z + dz >= grid.nz || y + dy < 0 || y + dy >= grid.ny) continue;
-                std::int32_t const row = ((z + dz) * grid.ny + y + dy) * grid.nx;
-                std::int64_t const begin = dz == 0 && dy == 0 ? i + 1 : cell_start[row + x0];
-                for (std::int64_t j = begin; j < cell_start[row + x1 + 1]; ++j)
-                    visit(j);
-            }
-    }
-};
-
-/// True for particles closer than the sum of their radii + skin.
+/// True for particles closer than the sum of their radii + skin, or than that to an image of each other.
+template <class Space>
 struct Nearness
 {
     Quad const* position;
     double skin;
+    Space space;
 
     GIMDEM_HD bool operator()(std::int64_t i, std::int64_t j) const
     {
         double const reach = position[i].w + position[j].w + skin;
-        return (position[i].xyz() - position[j].xyz()).squaredNorm() < reach * reach;
+        Vec3 between = position[i].xyz() - position[j].xyz();
+        space.shorten(between.x(), between.y(), between.z());
+        return between.squaredNorm() < reach * reach;
     }
 };
 
 /// Number of pairs of each particle as the first member.
+template <class Candidates, class Near>
 struct PairCounter
 {
-    CandidateVisitor visit_candidates;
-    Nearness near;
+    Candidates visit_candidates;
+    Near near;
     std::int32_t* counts;
 
     GIMDEM_HD void operator()(std::int64_t i) const
@@ -72,10 +46,11 @@ struct PairCounter
     }
 };
 
+template <class Candidates, class Near>
 struct PairFiller
 {
-    CandidateVisitor visit_candidates;
-    Nearness near;
+    Candidates visit_candidates;
+    Near near;
     std::int32_t const* offsets;
     std::int32_t* first;
     std::int32_t* second;
@@ -144,72 +119,122 @@ std::span<std::int32_t const> NeighborSearch::build(ParticleState& particles, Ne
     swap(old_.second, list.second);
     swap(old_.row_offsets, list.row_offsets);
     swap(old_.displacement, list.displacement);
+    swap(old_.rolling_spring, list.rolling_spring);
     list_pairs(particles, list);
     if (has_springs)
-        carry_springs(old_, list);
+        carry_springs(old_.displacement, list, list.displacement);
     else
         list.displacement.fill({0, 0, 0, 0});
+    if (has_springs && list.carries_rolling)
+        carry_springs(old_.rolling_spring, list, list.rolling_spring);
+    else
+        list.rolling_spring.fill({0, 0, 0, 0});
     list.built_at = particles.position;
     return by_cell_.members.host();
 }
 
+std::int64_t NeighborSearch::count_candidates(ParticleState const& particles) const
+{
+    std::int64_t count = 0;
+    with_candidates(particles,
+                    [&](auto const& candidates, auto const&)
+                    {
+                        count = exec::reduce(
+                            execution_, particles.count(), std::int64_t{0},
+                            [=](std::int64_t i) { return candidates.count(i); },
+                            [](std::int64_t a, std::int64_t b) { return a + b; });
+                    });
+    return count;
+}
+
 void NeighborSearch::sort_into_cells(ParticleState& particles)
 {
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
-    Vec3 high = -low;
-    double largest = 0;
-    for (std::int64_t i = 0; i < particles.count(); ++i)
-    {
-        Vec3 const x = particles.position[i].xyz();
-        if (!x.allFinite())
-            throw UserError(
-                fmt::format("particle {} has no finite position (the motion diverged); reduce [dem] "
-                            "time_step or check the materials",
-                            particles.id[i]));
-        low = low.cwiseMin(x);
-        high = high.cwiseMax(x);
-        largest = std::max(largest, particles.position[i].w);
-    }
-    if (particles.count() == 0) low = high = Vec3::Zero();
-    grid_ = CellGrid::over(low, high, 2 * largest + skin_, 8 * particles.count() + 1000);
+    Quad* const position = particles.position.view().data;
+    if (domain_.is_periodic())
+        exec::for_each(execution_, particles.count(),
+                       [=, domain = domain_](std::int64_t i) { position[i].set_xyz(domain.wrap(position[i].xyz())); });
+    Extent const extent = Extent::of(execution_, particles);
+    domain_.require_room(2 * extent.largest_radius + skin_);
+    levels_ = SizeLevels::of(execution_, particles, extent, skin_, domain_);
 
     cell_of_.resize(particles.count());
-    Quad const* const position = particles.position.view().data;
     std::int32_t* const cell_of = cell_of_.view().data;
     exec::for_each(execution_, particles.count(),
-                   [=, grid = grid_](std::int64_t i) { cell_of[i] = grid.cell_of(position[i].xyz()); });
-    exec::group_by_key(cell_of_.host(), grid_.count(), by_cell_);
-    particles.permute(by_cell_.members.host());
-    permute(cell_of_, by_cell_.members.host());
+                   [=, levels = levels_](std::int64_t i) { cell_of[i] = levels.cell_of(position[i]); });
+    exec::group_by_key(execution_, cell_of_.host(), levels_.cell_count, by_cell_);
+    particles.permute(execution_, by_cell_.members.host());
+    permute(execution_, cell_of_, by_cell_.members.host());
+}
+
+/// Calls work(candidates, near) with the visitor and the test that fit the domain.
+template <class Work>
+void NeighborSearch::with_candidates(ParticleState const& particles, Work&& work) const
+{
+    in_space_of(domain_,
+                [&]<class Space>(Space space)
+                {
+                    constexpr bool periodic = !std::is_same_v<Space, OpenSpace>;
+                    Quad const* const position = particles.position.view().data;
+                    work(CandidateVisitor<periodic>{levels_, domain_.period, skin_, position,
+                                                    by_cell_.offsets.view().data, cell_of_.view().data},
+                         Nearness<Space>{position, skin_, space});
+                });
 }
 
 void NeighborSearch::list_pairs(ParticleState const& particles, NeighborList& list)
 {
-    std::int64_t const n = particles.count();
-    CandidateVisitor const visit{grid_, by_cell_.offsets.view().data, cell_of_.view().data};
-    Nearness const near{particles.position.view().data, skin_};
+    with_candidates(particles,
+                    [&](auto const& candidates, auto const& near) { fill(particles.count(), candidates, near, list); });
+}
 
+template <class Candidates, class Near>
+void NeighborSearch::fill(std::int64_t n, Candidates const& candidates, Near const& near, NeighborList& list)
+{
     list.row_offsets.resize(n + 1);
-    exec::for_each(execution_, n, PairCounter{visit, near, list.row_offsets.view().data});
-    std::int64_t const pairs = exec::exclusive_scan(list.row_offsets.host());
+    exec::for_each(execution_, n, PairCounter<Candidates, Near>{candidates, near, list.row_offsets.view().data});
+    std::int64_t const pairs = exec::exclusive_scan(execution_, list.row_offsets.host());
 
     list.first.resize(pairs);
     list.second.resize(pairs);
     list.displacement.resize(pairs);
+    list.rolling_spring.resize(list.carries_rolling ? pairs : 0);
     list.touches.resize(pairs);
     list.touches.fill(1);
-    exec::for_each(
-        execution_, n,
-        PairFiller{visit, near, list.row_offsets.view().data, list.first.view().data, list.second.view().data});
-    exec::group_by_key(list.second.host(), n, list.pairs_by_second);
+    exec::for_each(execution_, n,
+                   PairFiller<Candidates, Near>{candidates, near, list.row_offsets.view().data, list.first.view().data,
+                                                list.second.view().data});
+    list_border(list);
 }
 
-void NeighborSearch::carry_springs(NeighborList const& old, NeighborList& list)
+void NeighborSearch::list_border(NeighborList& list)
+{
+    BorderPairs& border = list.border;
+    border.slot.resize(list.pair_count());
+    border.pairs.resize(list.pair_count());
+    border_seconds_.resize(list.pair_count());
+    std::int32_t slots = 0;
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(list.pair_count()); ++k)
+    {
+        bool const crosses = list.first[k] / NeighborList::block != list.second[k] / NeighborList::block;
+        border.slot[k] = crosses ? slots : -1;
+        border.pairs[slots] = k;
+        border_seconds_[slots] = list.second[k];
+        slots += crosses;
+    }
+    border.pairs.resize(slots);
+    border_seconds_.resize(slots);
+    exec::group_by_key(border_seconds_.host(), list.row_offsets.size() - 1, border.by_second);
+    for (std::int32_t& member : border.by_second.members.host())
+        member = border.pairs[member];
+}
+
+void NeighborSearch::carry_springs(exec::Buffer<Quad> const& old_spring, NeighborList const& list,
+                                   exec::Buffer<Quad>& spring)
 {
     exec::for_each(execution_, list.pair_count(),
                    SpringCarrier{list.first.view().data, list.second.view().data, by_cell_.members.view().data,
-                                 old.row_offsets.view().data, old.second.view().data, old.displacement.view().data,
-                                 list.displacement.view().data});
+                                 old_.row_offsets.view().data, old_.second.view().data, old_spring.view().data,
+                                 spring.view().data});
 }
 
 }  // namespace gimdem

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 
-#include "contact/HertzMindlin.hpp"
 #include "core/Error.hpp"
-#include "exec/ForEach.hpp"
+#include "exec/Reduce.hpp"
 #include "exec/Sort.hpp"
 #include "walls/Triangle.hpp"
 
@@ -188,6 +187,7 @@ struct Touch
 
 /// All walls of one particle. An edge or corner that two planes share is touched once: planes touched in their interior
 /// come first, and a rim point that an earlier plane has already is dropped.
+template <class Law>
 struct WallKernel
 {
     ParticleView particles;
@@ -195,9 +195,10 @@ struct WallKernel
     std::int32_t const* offsets;
     std::int32_t const* plane;
     std::uint8_t const* whole;
-    ContactConstants const* constants;  ///< row of the wall's material
+    typename Law::template Constants<double> const* constants;  ///< row of the wall's material
     double dt;
     Quad* displacement;
+    Quad* rolling_spring;  ///< null where the law has none
     Quad* wall_force;
 
     GIMDEM_HD void operator()(std::int64_t i) const
@@ -246,8 +247,14 @@ private:
                            if (plane[k] == run.plane && whole[k] == 0) touch_triangles(run, k, x, touches, count);
                    });
         for (std::int32_t k = offsets[i]; k < offsets[i + 1]; ++k)
-            if (displacement[k].w != 0) displacement[k] = {0, 0, 0, 0};
+            if (displacement[k].w != 0) drop_springs(k);
         return count;
+    }
+
+    GIMDEM_HD void drop_springs(std::int32_t k) const
+    {
+        displacement[k] = {0, 0, 0, 0};
+        if constexpr (Law::has_rolling_spring) rolling_spring[k] = {0, 0, 0, 0};
     }
 
     GIMDEM_HD void touch_triangles(PlaneRun const& run, std::int32_t k, Quad const& x, Touch* touches, int& count) const
@@ -277,7 +284,7 @@ private:
             double const near = 1e-6 * touches[t].overlap + 1e-12;
             if ((touches[other].point - touches[t].point).squaredNorm() <= near * near)
             {
-                displacement[touches[t].pair] = {0, 0, 0, 0};
+                drop_springs(touches[t].pair);
                 return true;
             }
         }
@@ -289,18 +296,24 @@ private:
         Quad const v = particles.velocity[i];
         double const radius = particles.position[i].w;
         double const lever = radius - touch.overlap / 2;
-        ContactGeometry<double> const contact{
-            .normal = vector3(touch.normal),
-            .overlap = touch.overlap,
-            .velocity = vector3(v.xyz() - lever * particles.angular_velocity[i].xyz().cross(touch.normal)),
-            .radius_eff = radius,
-            .mass_eff = 1 / v.w};
-        HertzMindlin<double> const law{constants[particles.material[i]], dt};
-        Vector3<double> spring = vector3(displacement[touch.pair].xyz());
-        ContactForce<double> const result = law(contact, spring);
-        displacement[touch.pair] = {spring.x, spring.y, spring.z, 0};
+        Quad const spin = particles.angular_velocity[i];
+        ContactGeometry<double> const contact{.normal = vector3(touch.normal),
+                                              .overlap = touch.overlap,
+                                              .velocity = vector3(v.xyz() - lever * spin.xyz().cross(touch.normal)),
+                                              .radius_eff = radius,
+                                              .mass_eff = 1 / v.w,
+                                              .spin = vector3(spin.xyz()),
+                                              .inverse_inertia = spin.w,
+                                              .per_distance = 0};
+        ContactSprings<double> springs{vector3(displacement[touch.pair].xyz())};
+        if constexpr (Law::has_rolling_spring) springs.rolling = vector3(rolling_spring[touch.pair].xyz());
+        ContactForce<double> const result =
+            Law::template apply<double>(constants[particles.material[i]], dt, contact, springs);
+        displacement[touch.pair] = Quad::of(vec3(springs.tangential), 0);
+        if constexpr (Law::has_rolling_spring) rolling_spring[touch.pair] = Quad::of(vec3(springs.rolling), 0);
         force += vec3(result.force);
         torque -= lever * touch.normal.cross(vec3(result.tangential));
+        if constexpr (Law::rolls) torque += vec3(result.rolling);
     }
 };
 
@@ -313,6 +326,7 @@ void WallContacts::build(ParticleState const& particles, double skin, std::span<
     swap(old_.offsets, pairs_.offsets);
     swap(old_.plane, pairs_.plane);
     swap(old_.displacement, pairs_.displacement);
+    swap(old_.rolling_spring, pairs_.rolling_spring);
 
     pairs_.offsets.resize(n + 1);
     seen_.resize(n);
@@ -330,32 +344,52 @@ void WallContacts::build(ParticleState const& particles, double skin, std::span<
     pairs_.plane.resize(count);
     pairs_.whole.resize(count);
     pairs_.displacement.resize(count);
+    pairs_.rolling_spring.resize(model_.has_rolling_spring() ? count : 0);
     lister.plane = pairs_.plane.view().data;
     lister.whole = pairs_.whole.view().data;
     exec::for_each(execution_, n, lister);
 
     if (has_springs)
-        exec::for_each(execution_, n,
-                       WallSpringCarrier{order.empty() ? nullptr : order.data(), pairs_.offsets.view().data,
-                                         pairs_.plane.view().data, old_.offsets.view().data, old_.plane.view().data,
-                                         old_.displacement.view().data, pairs_.displacement.view().data});
+        carry_springs(order, old_.displacement, pairs_.displacement);
     else
         pairs_.displacement.fill({0, 0, 0, 0});
+    if (has_springs && model_.has_rolling_spring())
+        carry_springs(order, old_.rolling_spring, pairs_.rolling_spring);
+    else
+        pairs_.rolling_spring.fill({0, 0, 0, 0});
+}
+
+void WallContacts::carry_springs(std::span<std::int32_t const> order, exec::Buffer<Quad> const& old_spring,
+                                 exec::Buffer<Quad>& spring)
+{
+    exec::for_each(execution_, pairs_.offsets.size() - 1,
+                   WallSpringCarrier{order.empty() ? nullptr : order.data(), pairs_.offsets.view().data,
+                                     pairs_.plane.view().data, old_.offsets.view().data, old_.plane.view().data,
+                                     old_spring.view().data, spring.view().data});
 }
 
 void WallContacts::add_forces(ParticleState& particles, double dt)
 {
     wall_force_.resize(particles.count());
-    exec::for_each(execution_, particles.count(),
-                   WallKernel{particles.view(),
-                              {walls_.view()},
-                              pairs_.offsets.view().data,
-                              pairs_.plane.view().data,
-                              pairs_.whole.view().data,
-                              constants_.data + wall_material_ * material_count_,
-                              dt,
-                              pairs_.displacement.view().data,
-                              wall_force_.view().data});
+    model_.visit(
+        [&]<class Law>(LawTable<Law> const& table)
+        {
+            exec::for_each(execution_, particles.count(),
+                           WallKernel<Law>{particles.view(),
+                                           {walls_.view()},
+                                           pairs_.offsets.view().data,
+                                           pairs_.plane.view().data,
+                                           pairs_.whole.view().data,
+                                           table.constants.view().data + wall_material_ * material_count_,
+                                           dt,
+                                           pairs_.displacement.view().data,
+                                           pairs_.rolling_spring.view().data,
+                                           wall_force_.view().data});
+        });
+    Quad const* const force = wall_force_.view().data;
+    total_force_ = exec::reduce(
+        execution_, wall_force_.size(), Quad{0, 0, 0, 0}, [=](std::int64_t i) { return force[i]; },
+        [](Quad const& a, Quad const& b) { return a + b; });
 }
 
 }  // namespace gimdem

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "contact/ContactModel.hpp"
 #include "exec/Buffer.hpp"
 #include "exec/Execution.hpp"
 #include "particles/Materials.hpp"
@@ -21,6 +22,7 @@ struct WallPairs
     exec::Buffer<std::int32_t> plane;    ///< shape=(n_pairs,)
     exec::Buffer<std::uint8_t> whole;    ///< shape=(n_pairs,): 1 where the plane's rim is out of reach
     exec::Buffer<Quad> displacement;     ///< shape=(n_pairs,), tangential spring [m]
+    exec::Buffer<Quad> rolling_spring;   ///< shape=(n_pairs,), torque [N m]; empty where no law has such a spring
 };
 
 class WallContacts
@@ -28,7 +30,7 @@ class WallContacts
 public:
     WallContacts(exec::Execution execution, Materials const& materials, int wall_material, WallGeometry const& walls)
         : execution_(execution),
-          constants_(materials.table()),
+          model_(materials),
           material_count_(materials.count()),
           wall_material_(wall_material),
           walls_(walls)
@@ -49,17 +51,24 @@ public:
     /// Force of the walls on each particle in the last add_forces [N]; w: number of contacts.
     exec::Buffer<Quad> const& force_on_particles() const { return wall_force_; }
 
+    /// Its sum over all particles [N].
+    Vec3 total_force() const { return total_force_.xyz(); }
+
     static constexpr int most_planes = 16;  ///< near one particle
 
 private:
+    void carry_springs(std::span<std::int32_t const> order, exec::Buffer<Quad> const& old_spring,
+                       exec::Buffer<Quad>& spring);
+
     exec::Execution execution_;
-    exec::View<ContactConstants const> constants_;
+    ContactModel model_;
     std::int32_t material_count_;
     std::int32_t wall_material_;
     WallGeometry const& walls_;
     WallPairs pairs_, old_;
     exec::Buffer<std::uint64_t> seen_;  ///< what the first look at the walls found, for the second
     exec::Buffer<Quad> wall_force_;
+    Quad total_force_{0, 0, 0, 0};
 };
 
 }  // namespace gimdem

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Time of a DEM step of a bed of 1.545 mm beads in the box of cases/wachem-bed, no fluid.
 ///
-///   benchmark_dem [--data FILE] [--steps N] [--warm-up N] [--threads N] [--dt S] [--skin K]
+///   benchmark_dem [--data FILE] [--write FILE] [--steps N] [--warm-up N] [--threads N] [--dt S] [--skin K]
 ///
-/// FILE: particles in the format of LAMMPS (id type diameter density x y z, then Velocities), so that other programs can
-/// start from the same state; without it, a lattice that falls. Prints figures.
-#include <CLI/CLI.hpp>
+/// FILE: particles in the format of LAMMPS (id type diameter density x y z, then Velocities), so that other programs
+/// can start from the same state; without it, a lattice that falls. Prints figures.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <fstream>
@@ -15,6 +15,7 @@
 #include "BoxMesh.hpp"
 #include "TestCase.hpp"
 #include "engine/DemSystem.hpp"
+#include "particles/Insertion.hpp"
 
 namespace
 {
@@ -23,22 +24,23 @@ using namespace gimdem;
 
 struct Options
 {
-    std::string data;
+    std::string data, write;
     int steps = 1000, warm_up = 500, threads = 1;
     double dt = 2e-5, skin = 0.3;
     std::vector<double> box{0.09, 0.008, 0.5};
 };
 
-std::vector<test::Sphere> lattice()
+/// The lattice of cases/wachem-bed: what falls becomes an irregular bed.
+InsertionSettings lattice(std::vector<double> const& box)
 {
-    std::vector<test::Sphere> spheres;
-    for (int k = 0; spheres.size() < 17'563; ++k)
-        for (int j = 0; j < 4; ++j)
-            for (int i = 0; i < 54; ++i)
-                if (spheres.size() < 17'563)
-                    spheres.push_back({Vec3(1e-3 + 1.65e-3 * i + 1e-5 * (k % 3), 1.2e-3 + 1.7e-3 * j, 1e-3 + 1.65e-3 * k),
-                                       0.7725e-3});
-    return spheres;
+    InsertionSettings lattice;
+    lattice.material = "bead";
+    lattice.diameter = 1.545e-3;
+    lattice.count = 17'563;
+    lattice.box = {{{0, 0, 0}, {box[0], box[1], box[2]}}};
+    lattice.spacing = 1.65e-3;
+    lattice.jitter = 2e-5;
+    return lattice;
 }
 
 /// Sections "Atoms" and "Velocities" of a data file; throws for anything that cannot be read.
@@ -76,6 +78,33 @@ std::vector<test::Sphere> read_data(std::string const& path)
     return spheres;
 }
 
+/// By rising id, as read_data() reads it.
+void write_data(std::string const& path, ParticleState const& p, std::vector<double> const& box)
+{
+    std::vector<std::int64_t> place(static_cast<std::size_t>(p.count()));
+    for (std::int64_t i = 0; i < p.count(); ++i)
+        place[static_cast<std::size_t>(p.id[i])] = i;
+    std::ofstream file(path);
+    file << fmt::format("settled bed\n\n{} atoms\n1 atom types\n\n", p.count());
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        file << fmt::format("0 {:.17g} {}lo {}hi\n", box[axis], "xyz"[axis], "xyz"[axis]);
+    file << "\nAtoms\n\n";
+    for (std::size_t k = 0; k < place.size(); ++k)
+    {
+        Quad const x = p.position[place[k]];
+        file << fmt::format("{} 1 {:.17g} 1150 {:.17g} {:.17g} {:.17g}\n", k + 1, 2 * x.w, x.x, x.y, x.z);
+    }
+    file << "\nVelocities\n\n";
+    for (std::size_t k = 0; k < place.size(); ++k)
+    {
+        Quad const v = p.velocity[place[k]], w = p.angular_velocity[place[k]];
+        file << fmt::format("{} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", k + 1, v.x, v.y, v.z, w.x, w.y,
+                            w.z);
+    }
+    file.flush();
+    if (!file) throw std::runtime_error("cannot write " + path);
+}
+
 double kinetic_energy(ParticleState const& p)
 {
     double sum = 0;
@@ -93,8 +122,10 @@ void run(Options const& options)
     Materials const materials(settings);
     PolyMesh const mesh(test::BoxMesh::make({1, 1, 1}, {options.box[0], options.box[1], options.box[2]}));
     WallGeometry const walls(mesh, {"bottom"}, 0.9e-3);
-    auto const spheres = options.data.empty() ? lattice() : read_data(options.data);
-    DemSystem system(settings, execution, materials, walls, test::particles_of(spheres));
+    settings.insertion = {lattice(options.box)};
+    DemSystem system(
+        settings, execution, materials, walls,
+        options.data.empty() ? insert_particles(settings, materials) : test::particles_of(read_data(options.data)));
     system.prepare();
     system.begin_coupling_step(nullptr);
     for (int s = 0; s < options.warm_up; ++s)
@@ -106,6 +137,7 @@ void run(Options const& options)
         system.step(options.dt);
     double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     auto const n = static_cast<double>(system.particles().count());
+    if (!options.write.empty()) write_data(options.write, system.particles(), options.box);
     fmt::print("figure: dem_particles = {} [1]\n", n);
     fmt::print("figure: dem_threads = {} [1]\n", options.threads);
     fmt::print("figure: dem_ms_per_step = {:.4g} [ms]\n", 1e3 * seconds / options.steps);
@@ -122,6 +154,7 @@ int main(int argc, char** argv)
     Options options;
     CLI::App app("Time of a DEM step");
     app.add_option("--data", options.data, "initial state");
+    app.add_option("--write", options.write, "keep the last state");
     app.add_option("--steps", options.steps, "timed steps");
     app.add_option("--warm-up", options.warm_up, "steps before");
     app.add_option("--threads", options.threads, "threads");

@@ -30,7 +30,7 @@ struct GridB
         wall_faces.resize(mesh.face_count());
         wall_faces.fill(0);
         impulses.resize(particles.count());
-        impulses.fill({{1e-9, 2e-9, 3e-9, 1e-9}, {}});
+        impulses.fill({{1e-9, 2e-9, 3e-9, 1e-9}});
         mapper.locate(particles, wall_faces);
         mapper.compute_weights(particles);
     }

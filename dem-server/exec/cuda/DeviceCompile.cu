@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Proof that the laws and the integrator compile for a GPU: each is instantiated in a device kernel. The CUDA backend
 /// that launches them is not there yet; nothing here runs.
-#include "contact/HertzMindlin.hpp"
+#include "contact/ContactLaws.hpp"
 #include "forces/Beetstra.hpp"
 #include "integrate/VelocityVerlet.hpp"
 #include "mapping/GaussianIntegral.hpp"
@@ -26,7 +26,8 @@ struct AllLaws
 {
     Quad const* position;
     MeshKernelView mesh;
-    ContactConstants constants;
+    ContactLaw<HertzMindlinLaw, ElasticPlasticSpring, Sjkr>::Constants<double> hertz;
+    ContactLaw<LinearSpringDashpot, ConstantTorque>::Constants<double> linear;
     Quad* displacement;
     double* out;
 
@@ -35,12 +36,15 @@ struct AllLaws
         Vec3 const x = position[i].xyz();
         Location const at = CellWalker{mesh}(0, x);
         Vec3 spring = displacement[i].xyz();
-        HertzMindlin const law{constants, 1e-6};
-        ContactForce const contact = law({Vec3(0, 0, 1), 1e-6, x, 1e-3, 1e-6}, spring);
-        displacement[i] = Quad::of(spring, 0);
+        ContactGeometry<double> const touch{{0, 0, 1}, 1e-6, vector3(x), 1e-3, 1e-6, vector3(x), 1e9, 0};
+        ContactSprings<double> springs{vector3(spring), {0, 0, 0}};
+        ContactLaw<LinearSpringDashpot, ConstantTorque>::apply<double>(linear, 1e-6, touch, springs);
+        ContactForce<double> const contact =
+            ContactLaw<HertzMindlinLaw, ElasticPlasticSpring, Sjkr>::apply<double>(hertz, 1e-6, touch, springs);
+        displacement[i] = Quad::of(vec3(springs.tangential), 0);
         GaussianIntegral const integral{position[i].w, 1.0, tuned_coefficient(1.0)};
-        out[i] = integral(x.norm()) + beetstra_factor(0.5, at.outside) + contact.force.norm() +
-                 closest_on_triangle(x, spring, contact.tangential, x).point.norm();
+        out[i] = integral(x.norm()) + beetstra_factor(0.5, at.outside) + contact.force.x +
+                 closest_on_triangle(x, spring, vec3(contact.tangential), x).point.norm();
     }
 };
 
@@ -49,7 +53,7 @@ struct AllLaws
 /// Keeps the instantiations.
 void compile_for_device()
 {
-    launch<HalfKick><<<1, 1>>>(0, HalfKick{});
+    launch<HalfKick<true>><<<1, 1>>>(0, HalfKick<true>{});
     launch<Drift><<<1, 1>>>(0, Drift{});
     launch<AllLaws><<<1, 1>>>(0, AllLaws{});
 }

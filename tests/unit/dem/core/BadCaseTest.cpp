@@ -96,6 +96,20 @@ Mistake const mistakes[] = {
     {"InfiniteCorner", "0.5]]", "inf]]",
      "case.toml:40: \"box\" in [[insertion]] is inf (must be a finite number); write e.g. box = [[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]"},
 
+    // periodic domain
+    {"PeriodicAxesMiscounted", "[walls]", "[domain]\nperiodic = [true]\n[walls]",
+     "case.toml:35: \"periodic\" in [domain] is an array (an array of three, true or false is needed); "
+     "write e.g. periodic = [true, true, false]"},
+    {"PeriodicAxisAsNumber", "[walls]", "[domain]\nperiodic = [true, 1, false]\n[walls]",
+     "case.toml:35: \"periodic\" in [domain] is an array (an array of three, true or false is needed); "
+     "write e.g. periodic = [true, true, false]"},
+    {"PeriodicWithoutBox", "[walls]", "[domain]\nperiodic = [false, true, false]\n[walls]",
+     "case.toml:34: box in [domain] is empty along y (that axis is periodic, the box tells its period); "
+     "write e.g. box = [[0.0, 0.0, 0.0], [0.05, 0.05, 0.05]]"},
+    {"PeriodicBoxUpsideDown", "[walls]", "[domain]\nperiodic = [false, false, true]\nbox = [[0, 0, 1], [1, 1, 0]]\n[walls]",
+     "case.toml:36: box in [domain] is empty along z (that axis is periodic, the box tells its period); "
+     "write e.g. box = [[0.0, 0.0, 0.0], [0.05, 0.05, 0.05]]"},
+
     // words
     {"UnknownSchedule", "schedule = \"serial\"", "schedule = \"overlaped\"",
      "case.toml:7: \"schedule\" in [coupling] is \"overlaped\" (must be serial | overlapped); did you mean \"overlapped\"?"},
@@ -112,6 +126,20 @@ Mistake const mistakes[] = {
      "case.toml:22: \"name\" in [[materials]] is \"\" (must be not empty); write e.g. name = \"bead\""},
 
     // between settings
+    {"UnknownContactLaw", "skin = 0.2\n", "contact_law = \"linaer\"\n",
+     "case.toml:15: \"contact_law\" in [dem] is \"linaer\" (must be hertz-mindlin | linear); did you mean \"linear\"?"},
+    {"StiffnessMissing", "skin = 0.2\n", "contact_law = \"linear\"\n",
+     "case.toml:26: \"normal_stiffness\" is missing in [[contacts]] for [\"bead\", \"bead\"] (stiffness of the spring [N/m], "
+     "needed for contact_law = \"linear\" in [dem]); add e.g. normal_stiffness = 1000.0"},
+    {"RollingFrictionMissing", "skin = 0.2\n", "rolling_friction = \"cdt\"\n",
+     "case.toml:26: \"rolling_friction\" is missing in [[contacts]] for [\"bead\", \"bead\"] (coefficient of rolling friction, "
+     "needed for rolling_friction = \"cdt\" in [dem]); add e.g. rolling_friction = 0.05"},
+    {"RollingFrictionWithoutALaw", "friction = 0.3\n", "friction = 0.3\nrolling_friction = 0.1\n",
+     "case.toml:30: \"rolling_friction\" in [[contacts]] has no effect (rolling_friction = \"none\" in [dem]); remove it or "
+     "choose rolling_friction = \"cdt\""},
+    {"CohesionMissing", "skin = 0.2\n", "cohesion = \"sjkr\"\n",
+     "case.toml:26: \"cohesion_energy_density\" is missing in [[contacts]] for [\"bead\", \"bead\"] (attraction per area of "
+     "contact [J/m^3], needed for cohesion = \"sjkr\" in [dem]); add e.g. cohesion_energy_density = 5e4"},
     {"GridNotOnOffer", "grid = \"B\"", "grid = \"C\"",
      "case.toml:4: grid \"C\" in [run] is not on offer (it is not in grids); known are: A, B"},
     {"GridNotChosen", "grid = \"B\"\n", "",

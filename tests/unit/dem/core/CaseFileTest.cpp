@@ -120,6 +120,17 @@ TEST(CaseFile, EveryGivenSettingArrives)
     EXPECT_EQ(input.output.outlet, "outlet");
 }
 
+TEST(CaseFile, PeriodicDomainArrives)
+{
+    std::string const domain = "[domain]\nperiodic = [true, false, true]\nbox = [[0, 0, -1], [0.5, 0, 2]]\n";
+    Case const input = parse_case(test::with(test::good_case, "[walls]", domain + "[walls]"), "case.toml");
+
+    EXPECT_THAT(input.domain.periodic, ElementsAre(true, false, true));
+    EXPECT_THAT(input.domain.box[0], ElementsAre(0, 0, -1));
+    EXPECT_THAT(input.domain.box[1], ElementsAre(0.5, 0, 2));
+    EXPECT_THAT(parse_case(test::good_case, "case.toml").domain.periodic, ElementsAre(false, false, false));
+}
+
 TEST(CaseFile, EndpointsOfAllKindsAreTaken)
 {
     for (std::string const endpoint : {"ipc", "ipc:///tmp/bed", "tcp://127.0.0.1:5570", "tcp://[::1]:1"})

@@ -111,8 +111,8 @@ TEST(PopulationCase, InletIsReadAndItsMistakesAreRefused)
 TEST(PopulationCase, RunWithoutAFluidNeedsItsDomain)
 {
     Case const input = parse_case(alone(), "case.toml");
-    ASSERT_TRUE(input.domain);
-    EXPECT_THAT(input.domain->open, ElementsAre("zmax"));
+    EXPECT_THAT(input.domain.open, ElementsAre("zmax"));
+    EXPECT_EQ(input.domain.box[1][0], 0.09);
     EXPECT_THAT(message_of(alone("")), HasSubstr("[domain] is missing"));
     EXPECT_THAT(message_of(alone("[domain]\nbox = [[0, 0, 0], [0, 1, 1]]\n")), HasSubstr("box in [domain] is empty"));
     EXPECT_THAT(message_of(alone("[domain]\nbox = [[0, 0, 0], [1, 1, 1]]\nopen = [\"top\"]\n")),
@@ -120,6 +120,22 @@ TEST(PopulationCase, RunWithoutAFluidNeedsItsDomain)
     EXPECT_THAT(message_of(alone() + "[settle]\nduration = 1.0\n"), HasSubstr("settle has no effect"));
     EXPECT_THAT(message_of(test::good_case + "[domain]\nbox = [[0, 0, 0], [1, 1, 1]]\n"),
                 HasSubstr("[domain] has no effect"));
+}
+
+TEST(PopulationCase, PeriodicAxisHasNoSides)
+{
+    auto const domain = [](std::string const& open)
+    {
+        return "[domain]\nbox = [[0, 0, 0], [0.09, 0.08, 0.5]]\nopen = [\"" + open +
+               "\"]\nperiodic = [true, false, false]\n";
+    };
+    EXPECT_THAT(parse_case(alone(domain("zmax")), "case.toml").domain.periodic, ElementsAre(true, false, false));
+    EXPECT_THAT(message_of(alone(domain("xmin"))),
+                HasSubstr("\"xmin\" in open of [domain] has no effect (that axis is periodic)"));
+    EXPECT_THAT(message_of(test::with(alone(domain("zmax")), "[walls]\n", "[walls]\nalso = [\"xmax\"]\n")),
+                HasSubstr("\"xmax\" in also of [walls] has no effect (that axis is periodic)"));
+    EXPECT_THAT(message_of(test::with(alone(domain("zmax")), "[walls]\n", "[walls]\nalso = [\"lid\"]\n")),
+                HasSubstr("\"lid\" in also of [walls] is no side"));
 }
 
 TEST(PopulationCase, SomeParticlesMustCome)

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -40,7 +41,7 @@ Case busy_case()
     settings.materials.push_back({"glass", 2500, 1e6, 0.25});
     settings.contacts.push_back({{"bead", "glass"}, 0.8, 0.4});
     settings.contacts.push_back({{"glass", "glass"}, 0.7, 0.5});
-    settings.domain = gimdem::DomainSettings{{{{0, 0, 0}, {0.02, 0.02, 0.03}}}, {"xmax"}};
+    settings.domain = gimdem::DomainSettings{{{{0, 0, 0}, {0.02, 0.02, 0.03}}}, {"xmax"}, {}};
     gimdem::InletSettings inlet;
     inlet.material = "glass";
     inlet.mass_rate = 0.05;
@@ -60,9 +61,9 @@ struct ShortRun
     explicit ShortRun(gimdem::exec::Execution execution, Case const& input = busy_case())
         : settings(input),
           materials(settings),
-          mesh(gimdem::box_mesh(*settings.domain)),
+          mesh(gimdem::box_mesh(settings.domain)),
           walls(mesh, {}, 2e-3),
-          bounds(*settings.domain),
+          bounds(settings.domain),
           inlets(gimdem::make_inlets(settings, materials)),
           system(settings, execution, materials, walls,
                  particles_of(random_spheres(150, {0, 0, 0}, {0.02, 0.02, 0.02}, 4e-4, 8e-4)))
@@ -172,6 +173,32 @@ TEST_F(CheckpointTest, RestartedRunEndsBitwiseEqualForAnyThreadCount)
         restarted.run_to(600);
         expect_same(through, restarted);
     }
+}
+
+TEST_F(CheckpointTest, RollingSpringsAndPeriodicAxesComeBack)
+{
+    Case settings = busy_case();
+    settings.domain.periodic = {false, true, false};
+    settings.dem.rolling_friction = "epsd";
+    for (auto& contact : settings.contacts)
+    {
+        contact.rolling_friction = 0.1;
+        contact.rolling_damping = 0.3;
+    }
+    ShortRun through(serial, settings);
+    through.run_to(400);
+    through.write(file);
+    through.run_to(600);
+    EXPECT_EQ(through.system.removed().count("through the wall ymin"), 0u);
+    auto const& springs = through.system.neighbors().rolling_spring;
+    EXPECT_TRUE(std::any_of(springs.host().begin(), springs.host().end(), [](auto const& s) { return s.x != 0; }));
+    ShortRun restarted(two_threads, settings);
+    restarted.read(file);
+    restarted.run_to(600);
+    expect_same(through, restarted);
+    EXPECT_TRUE(same_bits(springs, restarted.system.neighbors().rolling_spring));
+    EXPECT_TRUE(
+        same_bits(through.system.walls().pairs().rolling_spring, restarted.system.walls().pairs().rolling_spring));
 }
 
 TEST_F(CheckpointTest, WritingItAgainGivesTheSameBytes)

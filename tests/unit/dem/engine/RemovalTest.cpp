@@ -2,6 +2,7 @@
 /// Particles that leave: who is removed, what is counted, and that the others do not notice.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "BoxMesh.hpp"
@@ -19,17 +20,19 @@ using gimdem::DemSystem;
 using gimdem::Vec3;
 using namespace gimdem::test;
 
-gimdem::DomainSettings box(std::vector<std::string> open)
+gimdem::DomainSettings box(std::vector<std::string> open, std::array<bool, 3> periodic = {})
 {
-    return {{{{0, 0, 0}, {0.02, 0.03, 0.04}}}, std::move(open)};
+    return {{{{0, 0, 0}, {0.02, 0.03, 0.04}}}, std::move(open), periodic};
 }
 
 /// Spheres in a box without a fluid.
 struct Boxed
 {
-    Boxed(std::vector<Sphere> const& spheres, std::vector<std::string> const& open, Vec3 const& gravity = Vec3::Zero())
-        : settings(bead_case()), materials(settings), mesh(gimdem::box_mesh(box(open))), walls(mesh, {}, 2e-3)
+    Boxed(std::vector<Sphere> const& spheres, std::vector<std::string> const& open, Vec3 const& gravity = Vec3::Zero(),
+          std::array<bool, 3> periodic = {})
+        : settings(bead_case()), materials(settings), mesh(gimdem::box_mesh(box(open, periodic))), walls(mesh, {}, 2e-3)
     {
+        settings.domain = box(open, periodic);
         settings.dem.gravity = {gravity.x(), gravity.y(), gravity.z()};
         settings.dem.time_step = 2e-5;
         system.emplace(settings, serial, materials, walls, particles_of(spheres));
@@ -98,6 +101,29 @@ TEST(DomainBounds, ParticleBeyondAWallIsCountedAsSuch)
     boxed.system->insert(particles_of({{{0.01, 0.01, 0.01}, 1e-3}}));
     EXPECT_EQ(boxed.system->particles().id[0], 1) << "ids are never given twice";
     boxed.run(10);
+}
+
+TEST(DomainBounds, PeriodicAxisHasNeitherWallNorEnd)
+{
+    // The same slide along the floor: through the border at xmax, edge of the floor included, and in the middle.
+    Vec3 const gravity(0, 0, -9.81);
+    auto const sphere = [](double x) { return Sphere{{x, 0.01, 0.999e-3}, 1e-3, {0.5, 0, 0}}; };
+    Boxed across({sphere(0.019)}, {}, gravity, {true, false, false}), within({sphere(0.008)}, {}, gravity);
+    EXPECT_EQ(across.walls.plane_count(), 4);
+    gimdem::DomainBounds const bounds(box({}, {true, false, false}));
+    for (int k = 0; k < 30; ++k)
+    {
+        across.run(10);
+        within.run(10);
+        EXPECT_EQ(bounds.remove_leavers(*across.system), 0);
+    }
+    Vec3 const a = across.system->particles().position[0].xyz(), b = within.system->particles().position[0].xyz();
+    // 2.9 mm on its way; equal but for rounding of 0.02 m, and friction has made it spin.
+    EXPECT_LT(a.x(), 0.005);
+    EXPECT_NEAR((a - b - Vec3(-0.009, 0, 0)).norm(), 0, 1e-13);
+    Vec3 const spin = across.system->particles().angular_velocity[0].xyz();
+    EXPECT_NEAR((spin - within.system->particles().angular_velocity[0].xyz()).norm(), 0, 1e-8);
+    EXPECT_GT(spin.y(), 1);
 }
 
 TEST(DemSystem, ThoseWhoStayKeepTheirSprings)

@@ -37,7 +37,7 @@ struct Mapping
         mapper.compute_weights(particles);
         gimdem::exec::Buffer<gimdem::Impulse> impulses(particles.count());
         for (std::int64_t p = 0; p < particles.count(); ++p)
-            impulses[p] = {gimdem::Quad::of(1e-6 * Vec3(std::sin(p), std::cos(p), 0.1), 1e-7 * double(p % 7)), {}};
+            impulses[p] = {gimdem::Quad::of(1e-6 * Vec3(std::sin(p), std::cos(p), 0.1), 1e-7 * double(p % 7))};
         mapper.sum_into_cells(particles, impulses, sums);
         for (auto const& impulse : impulses.host())
             given += impulse.drag.xyz();

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
+#include "Pairs.hpp"
 #include "TestCase.hpp"
 #include "core/Error.hpp"
 
@@ -16,30 +15,6 @@ using gimdem::NeighborSearch;
 using gimdem::ParticleState;
 using gimdem::Vec3;
 using namespace gimdem::test;
-
-using Pairs = std::set<std::pair<std::int64_t, std::int64_t>>;
-
-Pairs by_brute_force(ParticleState const& p, double skin)
-{
-    Pairs pairs;
-    for (std::int64_t i = 0; i < p.count(); ++i)
-        for (std::int64_t j = 0; j < p.count(); ++j)
-            if (p.id[i] < p.id[j] &&
-                (p.position[i].xyz() - p.position[j].xyz()).norm() < p.position[i].w + p.position[j].w + skin)
-                pairs.emplace(p.id[i], p.id[j]);
-    return pairs;
-}
-
-Pairs ids_of(ParticleState const& p, NeighborList const& list)
-{
-    Pairs pairs;
-    for (std::int64_t k = 0; k < list.pair_count(); ++k)
-    {
-        auto const a = p.id[list.first[k]], b = p.id[list.second[k]];
-        pairs.emplace(std::min(a, b), std::max(a, b));
-    }
-    return pairs;
-}
 
 TEST(NeighborList, HoldsThePairsOfBruteForceEachOnce)
 {

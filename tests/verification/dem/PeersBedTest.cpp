@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The peers' bed from the lattice to rest.
+#include <gtest/gtest.h>
+
+#include "Figure.hpp"
+#include "PeersBed.hpp"
+
+namespace
+{
+
+using namespace gimdem::test;
+
+void print(std::string const& time, BedFigures const& f)
+{
+    figure("peers_bed_" + time + "_kinetic_energy", f.kinetic_energy, "J");
+    figure("peers_bed_" + time + "_twice_mean_height", f.twice_mean_height, "m");
+    figure("peers_bed_" + time + "_coordination", f.coordination);
+    figure("peers_bed_" + time + "_mean_overlap", f.mean_overlap, "diameters");
+    figure("peers_bed_" + time + "_solid_fraction", f.solid_fraction);
+}
+
+TEST(PeersBed, FallsAndSettlesLikeTheirs)
+{
+    auto const bed = PeersBed::make();
+    int done = 0;
+    // LIGGGHTS and LAMMPS, before the packing becomes chaotic: they differ by 0.05 % at most.
+    for (auto const& [step, want] : {std::pair{1000, 7.200e-4}, {3000, 5.579e-3}, {5000, 1.03564e-2}})
+    {
+        bed->run(step - done, PeersBed::dt);
+        done = step;
+        double const energy = kinetic_energy(bed->particles());
+        figure(fmt::format("peers_bed_kinetic_energy_{}", step), energy, "J");
+        EXPECT_NEAR(energy, want, 1e-3 * want) << step;
+    }
+    bed->run(15'000 - done, PeersBed::dt);
+    print("0.3s", figures_of(*bed));
+    bed->run(12'000, PeersBed::dt);
+    BedFigures const rest = figures_of(*bed);
+    print("0.54s", rest);
+    // Bands around three codes, each on one or two ranks: the packing is chaotic, its means are not.
+    EXPECT_LT(rest.kinetic_energy, 1e-8);
+    EXPECT_NEAR(rest.twice_mean_height, 0.0740, 0.0002);
+    EXPECT_NEAR(rest.coordination, 5.835, 0.035);
+    EXPECT_NEAR(rest.mean_overlap, 0.02495, 0.00025);
+    EXPECT_NEAR(rest.solid_fraction, 0.640, 0.002);
+}
+
+}  // namespace
