@@ -57,7 +57,8 @@ void check_array(v1::ArrayHeader const& header, transport::Frame& frame)
 
     std::size_t const row_bytes = size * header.components();
     bool const fits = header.count() <= transport::max_frame_bytes / row_bytes;
-    if (!fits || header.count() * row_bytes != frame.size())
+    if (fits && header.shared() && frame.empty()) return;  // its place is checked where the memory is known
+    if (!fits || header.shared() || header.count() * row_bytes != frame.size())
         refuse(who + " has " + std::to_string(frame.size()) + " bytes, but its header promises " +
                std::to_string(header.count()) + " rows of " + std::to_string(row_bytes) +
                " bytes (a truncated or padded frame)");
@@ -76,6 +77,8 @@ void check_arrays(Message& message)
     {
         check_name(headers[k].name(), "the name of an array");
         if (!names.insert(headers[k].name()).second) refuse("array \"" + headers[k].name() + "\" comes twice");
+        if (headers[k].shared() && message.kind() == Kind::kMesh)
+            refuse("array \"" + headers[k].name() + "\" of a Mesh in shared memory (only fields may lie there)");
         check_array(headers[k], message.arrays[static_cast<std::size_t>(k)]);
     }
 }
@@ -110,8 +113,11 @@ transport::Frames encode(Message message)
     frames.reserve(1 + message.arrays.size());
     frames.emplace_back(message.envelope.ByteSizeLong());
     message.envelope.SerializeToArray(frames.front().data(), static_cast<int>(frames.front().size()));
-    for (transport::Frame& array : message.arrays)
-        frames.push_back(std::move(array));
+    for (std::size_t k = 0; k < message.arrays.size(); ++k)
+    {
+        bool const shared = message.envelope.arrays(static_cast<int>(k)).shared();
+        frames.push_back(shared ? transport::Frame() : std::move(message.arrays[k]));
+    }
     return frames;
 }
 

@@ -5,6 +5,7 @@
 
 #include "message/Arrays.hpp"
 #include "message/Finite.hpp"
+#include "message/SharedArrays.hpp"
 
 namespace gimdem::coupling::message
 {
@@ -83,14 +84,25 @@ FieldChoice<SolidFields> choose_solid_fields(std::vector<std::string> const& nam
 
 template <class Fields>
 void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
-                   transport::FramePool const& memory)
+                   transport::SendMemory const& memory)
 {
+    memory.begin_message();
     for (auto const& entry : choice)
     {
         Span<double const> const values = fields.*entry.values;
         check_before_sending(entry, values, cell_count);
         append_array(message, entry.name, entry.components, values, memory.make(values.size() * sizeof(double)));
+        if (auto const offset = memory.offset_of(message.arrays.back())) mark_shared(message, *offset);
     }
+}
+
+template <class Fields>
+std::size_t shared_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count)
+{
+    std::size_t sum = 0;
+    for (auto const& entry : choice)
+        sum += transport::shared_bytes(cell_count * entry.components * sizeof(double));
+    return sum;
 }
 
 template <class Fields>
@@ -109,9 +121,11 @@ Fields view_fields(Message const& message, FieldChoice<Fields> const& choice, st
 }
 
 template void append_fields(Message&, FieldChoice<FluidFields> const&, FluidFields const&, std::size_t,
-                            transport::FramePool const&);
+                            transport::SendMemory const&);
 template void append_fields(Message&, FieldChoice<SolidFields> const&, SolidFields const&, std::size_t,
-                            transport::FramePool const&);
+                            transport::SendMemory const&);
+template std::size_t shared_bytes(FieldChoice<FluidFields> const&, std::size_t);
+template std::size_t shared_bytes(FieldChoice<SolidFields> const&, std::size_t);
 template FluidFields view_fields(Message const&, FieldChoice<FluidFields> const&, std::size_t);
 template SolidFields view_fields(Message const&, FieldChoice<SolidFields> const&, std::size_t);
 

@@ -9,7 +9,7 @@
 
 #include "gimdem/coupling/Types.hpp"
 #include "message/Message.hpp"
-#include "transport/FramePool.hpp"
+#include "transport/SendMemory.hpp"
 
 namespace gimdem::coupling::message
 {
@@ -44,10 +44,15 @@ using FieldChoice = std::vector<FieldEntry<Fields>>;
 FieldChoice<FluidFields> choose_fluid_fields(std::vector<std::string> const& names, Fault fault);
 FieldChoice<SolidFields> choose_solid_fields(std::vector<std::string> const& names, Fault fault);
 
-/// Adds the chosen fields to a message. Fault::user if one has not cell_count rows, or holds a NaN or infinity.
+/// Adds the chosen fields to a message, in shared memory where the peer reads it. Fault::user if one has not cell_count
+/// rows, or holds a NaN or infinity.
 template <class Fields>
 void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
-                   transport::FramePool const& memory);
+                   transport::SendMemory const& memory);
+
+/// Bytes of shared memory that one message with the chosen fields takes.
+template <class Fields>
+std::size_t shared_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count);
 
 /// The chosen fields, in place; the others are empty. Fault::protocol if the message has others than the chosen ones,
 /// or the wrong sizes, or a NaN or infinity.

@@ -29,7 +29,7 @@ struct Terms
     FieldChoice<FluidFields> fluid;
     FieldChoice<SolidFields> solid;
     std::size_t cell_count = 0;
-    transport::FramePool memory;  ///< of the fields that we send
+    transport::SendMemory memory;  ///< of the fields that we send
 };
 
 /// Fault::user if a field or number cannot be sent.

@@ -10,6 +10,7 @@
 #include "session/ExchangeClock.hpp"
 #include "session/Options.hpp"
 #include "session/Session.hpp"
+#include "session/SharedFields.hpp"
 
 namespace gimdem::coupling
 {
@@ -58,6 +59,7 @@ struct Client::Impl
     ClientOptions options;
     Welcome welcome;
     message::Terms terms;
+    session::SharedFields shared;    ///< outlives the messages that lie in it
     message::Message solid_message;  ///< holds the bytes that the spans of solid show
     message::SolidState solid;
     Timings previous;  ///< of the last fluid step
@@ -82,7 +84,11 @@ void Client::Impl::connect(FluidProperties const& fluid)
     session.require(Event::connect);
     session.open(transport::Socket::connect(options.endpoint));
     session.advance(Event::connect);
-    session.send(message::pack(message::Hello{options.name, fluid, options.wants, options.schedule, options.timeout}));
+    shared.want(options.shared_memory && session.is_ipc());
+    message::Message hello =
+        message::pack(message::Hello{options.name, fluid, options.wants, options.schedule, options.timeout});
+    shared.offer(hello);
+    session.send(std::move(hello));
 
     if (!session.wait_for_contact(Clock::now() + ticks(options.connect_time)))
         session.fail(Fault::endpoint, "no server has answered at " + options.endpoint + " within " +
@@ -92,6 +98,7 @@ void Client::Impl::connect(FluidProperties const& fluid)
     session::Letter const letter = receive("Welcome");
     welcome = session.read([&] { return message::unpack_welcome(letter.message); });
     session.set_peer_name(welcome.server);
+    shared.agree(letter.message);
     terms.fluid = session.read([&] { return message::choose_fluid_fields(welcome.needs, Fault::protocol); });
 }
 
@@ -101,11 +108,14 @@ void Client::Impl::send_mesh(MeshView const& mesh)
     message::Message message = message::pack(mesh);
     session.look_for_trouble("the mesh of its program");
     session.advance(Event::send_mesh);
+    terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
+    shared.announce(message, message::shared_bytes(terms.fluid, terms.cell_count));
     session.send(std::move(message));
 
     session::Letter const letter = receive("MeshAccepted");
     session.read([&] { message::check_mesh_accepted(letter.message, mesh.cell_count); });
-    terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
+    shared.use_if_confirmed(letter.message, terms.memory);
+    session.read([&] { shared.map_announced(letter.message); });
     take_solid();
 }
 
@@ -122,7 +132,9 @@ void Client::Impl::begin_step(Step const& next, FluidFields const& fluid, std::v
     step = next.number;
     session.set_step(step);
     session.advance(call);
+    shared.confirm(message);
     session.send(std::move(message));
+    terms.memory.message_sent();
     clock.sent(entered, Clock::now());
 
     if (!is_serial()) return;
@@ -164,6 +176,7 @@ Time Client::Impl::take_solid()
         session.fail(Fault::protocol, message::describe(letter.message) + " from " + session.peer_name() +
                                           " is out of order (it should answer step " + std::to_string(step) +
                                           "); the two programs do not fit together, see docs/protocol.md");
+    session.read([&] { shared.attach(letter.message); });
     solid = session.read([&] { return message::unpack_solid_state(letter.message, terms); });
     solid_message = std::move(letter.message);
     return letter.arrival;
@@ -221,6 +234,10 @@ Welcome const& Client::welcome() const
 ExchangeTimes const& Client::exchange_times() const
 {
     return impl_->clock.times();
+}
+std::string const& Client::shared_memory_note() const
+{
+    return impl_->shared.note();
 }
 
 }  // namespace gimdem::coupling

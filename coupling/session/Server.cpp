@@ -10,6 +10,7 @@
 #include "message/StepMessages.hpp"
 #include "session/Options.hpp"
 #include "session/Session.hpp"
+#include "session/SharedFields.hpp"
 #include "session/StepOrder.hpp"
 
 namespace gimdem::coupling
@@ -61,6 +62,7 @@ struct Server::Impl
 
     ServerOptions options;
     message::Terms terms;
+    session::SharedFields shared;    ///< outlives the messages that lie in it
     message::Message fluid_message;  ///< holds the bytes that the spans of the last FluidState show
     session::StepOrder order;
     std::string goodbye_reason;
@@ -79,6 +81,7 @@ Server::Impl::Impl(ServerOptions given)
     session::require_seconds(options.connect_time, 0, "ServerOptions.connect_time");
     session::require_seconds(options.step_time, message::min_timeout, "ServerOptions.step_time");
     session.open(transport::Socket::bind(options.endpoint));
+    shared.want(options.shared_memory && session.is_ipc());
 }
 
 ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
@@ -97,9 +100,11 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
     session.choose_session_number();
     terms.solid = message::choose_solid_fields(hello.wants, Fault::protocol);
 
-    Welcome const welcome{options.name, offered.title, hello.schedule.value_or(offered.schedule), offered.end_time,
-                          offered.needs};
-    session.send(message::pack(welcome));
+    message::Message welcome = message::pack(Welcome{
+        options.name, offered.title, hello.schedule.value_or(offered.schedule), offered.end_time, offered.needs});
+    shared.offer(welcome);
+    shared.agree(letter.message);
+    session.send(std::move(welcome));
     return {hello.name, hello.fluid, hello.wants, hello.schedule};
 }
 
@@ -110,6 +115,7 @@ Mesh Server::Impl::receive_mesh()
     if (said_goodbye(letter))
         throw CouplingError(Fault::peer,
                             session.peer_name() + " said goodbye before it sent its mesh: " + goodbye_reason);
+    session.read([&] { shared.map_announced(letter.message); });  // first, so that no fault leaves its name behind
     Mesh mesh = session.read([&] { return message::unpack_mesh(letter.message); });
     terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
     return mesh;
@@ -121,7 +127,10 @@ void Server::Impl::accept_mesh(SolidFields const& initial, Timings const& timing
     message::Message solid = message::pack(message::SolidState{initial, timings, 0, stop_reason()}, terms);
     session.look_for_trouble("the judgement of the mesh by its program");
     session.advance(Event::accept_mesh);
-    session.send(message::pack_mesh_accepted(static_cast<std::int32_t>(terms.cell_count)));
+    message::Message accepted = message::pack_mesh_accepted(static_cast<std::int32_t>(terms.cell_count));
+    shared.confirm(accepted);
+    shared.announce(accepted, message::shared_bytes(terms.solid, terms.cell_count));
+    session.send(std::move(accepted));
     session.send(std::move(solid));
 }
 
@@ -141,8 +150,10 @@ std::optional<FluidState> Server::Impl::receive_fluid()
     if (said_goodbye(letter)) return std::nullopt;
 
     session.set_step(letter.message.envelope.step());
+    session.read([&] { shared.attach(letter.message); });
     FluidState fluid = session.read([&] { return message::unpack_fluid_state(letter.message, terms); });
     check_order(fluid.step);
+    shared.use_if_confirmed(letter.message, terms.memory);
     fluid_message = std::move(letter.message);
     busy_before = std::max(0.0, seconds_between(letter.arrival, entered));
     handed_out = Clock::now();
@@ -157,6 +168,7 @@ void Server::Impl::send_solid(SolidFields const& fields, Timings const& timings)
     session.look_for_trouble("the solid of its program");
     session.advance(Event::send_solid);
     session.send(std::move(solid));
+    terms.memory.message_sent();
 }
 
 void Server::Impl::request_stop(std::string const& reason)
@@ -249,6 +261,11 @@ void Server::request_stop(std::string const& reason)
 double Server::bytes() const
 {
     return impl_->session.bytes();
+}
+
+std::string const& Server::shared_memory_note() const
+{
+    return impl_->shared.note();
 }
 
 }  // namespace gimdem::coupling

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "message/Codec.hpp"
+#include "message/SharedArrays.hpp"
 
 namespace gimdem::coupling::session
 {
@@ -97,8 +98,9 @@ void Session::send(Message message)
         std::lock_guard<std::mutex> const lock(mutex_);
         message.envelope.set_step(step_);
     }
+    std::size_t const array_bytes = message::array_bytes(message);
     transport::Frames frames = message::encode(std::move(message));
-    bytes_ += static_cast<double>(transport::byte_count(frames));
+    bytes_ += static_cast<double>(frames.front().size() + array_bytes);
     channel_->send(std::move(frames));
 }
 
@@ -110,7 +112,7 @@ Letter Session::receive(std::string const& awaited, Time deadline, double patien
 
     check_letter(*delivery.letter, awaited);
     Message const& message = delivery.letter->message;
-    bytes_ += static_cast<double>(message.envelope.ByteSizeLong() + transport::byte_count(message.arrays));
+    bytes_ += static_cast<double>(message.envelope.ByteSizeLong() + message::array_bytes(message));
     advance(*event_of(message.kind()));
     return std::move(*delivery.letter);
 }

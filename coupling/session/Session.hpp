@@ -38,6 +38,7 @@ public:
 
     State state() const;
     std::string const& endpoint() const { return endpoint_; }
+    bool is_ipc() const { return endpoint_.rfind("ipc:", 0) == 0; }
     double bytes() const { return bytes_; }
 
     /// Fault::user, which ends nothing, if the call is not legal now.

@@ -121,6 +121,8 @@ public:
         engine_.set_inlets(inlets_);
         engine_.map_initial_state();
         server_.accept_mesh(engine_.fields());
+        if (!server_.shared_memory_note().empty())
+            fmt::print(stderr, "gimdem-server: note: {}\n", server_.shared_memory_note());
     }
 
     void couple()

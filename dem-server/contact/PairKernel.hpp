@@ -96,7 +96,7 @@ struct PairKernel
 
 private:
     /// Picks those that touch from the pairs k, k + 1, ... of which there are `left`.
-    [[gnu::flatten]] void look(std::int32_t k, std::int32_t left, TouchingPairs& found) const
+    GIMDEM_FLATTEN void look(std::int32_t k, std::int32_t left, TouchingPairs& found) const
     {
         int const count = left < exec::octet ? left : exec::octet;
         std::int32_t i[exec::octet], j[exec::octet];
@@ -134,7 +134,7 @@ private:
     }
 
     /// Works on `count` pairs, at most eight.
-    [[gnu::flatten]] void compute(std::int32_t const* pair, int count) const
+    GIMDEM_FLATTEN void compute(std::int32_t const* pair, int count) const
     {
         std::int32_t i[exec::octet], j[exec::octet];
         for (int n = 0; n < exec::octet; ++n)

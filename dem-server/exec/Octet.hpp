@@ -9,6 +9,13 @@
 
 #include "exec/Vector.hpp"
 
+/// Inlines all calls of a function that works on octets. Not under a sanitizer, whose checks would multiply.
+#ifdef __SANITIZE_ADDRESS__
+#define GIMDEM_FLATTEN
+#else
+#define GIMDEM_FLATTEN [[gnu::flatten]]
+#endif
+
 namespace gimdem::exec
 {
 

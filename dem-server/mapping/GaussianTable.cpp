@@ -105,15 +105,13 @@ void GaussianTables::add_row(double radius)
     radii_.resize(row + 1);
     radii_[row] = radius;
     std::int64_t const first_table = coefficients_.size();
+    std::vector<double> interval;
     for (double const volume : class_volumes_)
-        add_table(radius, volume);
+        interval.push_back(add_table(radius, volume));
 
     // The argument is each cell's own, so that classes are joined without a step.
     auto const cells = static_cast<std::int64_t>(volumes_.size());
     pairs_.resize((row + 1) * cells);
-    std::vector<double> interval;
-    for (double const volume : class_volumes_)
-        interval.push_back(TabulatedIntegral(radius, volume).end() / intervals);
     for (std::int64_t c = 0; c < cells; ++c)
     {
         auto const k = static_cast<std::size_t>(class_of_[static_cast<std::size_t>(c)]);
@@ -124,7 +122,7 @@ void GaussianTables::add_row(double radius)
     }
 }
 
-void GaussianTables::add_table(double radius, double volume)
+double GaussianTables::add_table(double radius, double volume)
 {
     static auto const to_coefficients = interpolation();
     TabulatedIntegral const pair(radius, volume);
@@ -153,6 +151,7 @@ void GaussianTables::add_table(double radius, double volume)
                                       std::abs(static_cast<double>(high) - pair(h * (i + 1))));
         usable_ = usable_ && error < error_bound;
     }
+    return h;
 }
 
 GaussianTableView GaussianTables::view() const

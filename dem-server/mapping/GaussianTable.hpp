@@ -93,7 +93,7 @@ public:
 
 private:
     void add_row(double radius);
-    void add_table(double radius, double volume);
+    double add_table(double radius, double volume);  ///< returns the width of its intervals
 
     std::vector<double> volumes_;         ///< per cell [m^3]
     std::vector<std::int32_t> class_of_;  ///< per cell

@@ -146,7 +146,7 @@ void Mapper::locate(ParticleState const& particles, exec::Buffer<std::uint8_t> c
             left_.push_back({static_cast<std::int32_t>(p),
                              CellWalker{mesh_.view()}(cell_of_[p], particles.position[p].xyz()).face});
     }
-    exec::group_by_key(cell_of_.host(), mesh_.cell_count(), by_cell_);
+    exec::group_by_key(execution_, cell_of_.host(), mesh_.cell_count(), by_cell_);
 }
 
 void Mapper::refuse_outside(ParticleState const& particles, std::int64_t particle)

@@ -223,7 +223,7 @@ void NeighborSearch::list_border(NeighborList& list)
     }
     border.pairs.resize(slots);
     border_seconds_.resize(slots);
-    exec::group_by_key(border_seconds_.host(), list.row_offsets.size() - 1, border.by_second);
+    exec::group_by_key(execution_, border_seconds_.host(), list.row_offsets.size() - 1, border.by_second);
     for (std::int32_t& member : border.by_second.members.host())
         member = border.pairs[member];
 }

@@ -67,6 +67,8 @@ ClientOptions Foam::couplingClient::options
     o.timeout = dict.getOrDefault<scalar>("timeout", o.timeout);
     o.connect_time = dict.getOrDefault<scalar>("connectTime", o.connect_time);
     o.step_time = dict.getOrDefault<scalar>("stepTime", o.step_time);
+    o.shared_memory =
+        dict.getOrDefault<bool>("sharedMemory", o.shared_memory);
 
     const word schedule =
         args.found("schedule")
@@ -153,6 +155,11 @@ Foam::scalar Foam::couplingClient::endTime() const
 void Foam::couplingClient::sendMesh(const polyMesh& mesh)
 {
     client_.send_mesh(polyMeshArrays(mesh).view());
+
+    if (!client_.shared_memory_note().empty())
+    {
+        Info<< "Note: " << client_.shared_memory_note().c_str() << nl << endl;
+    }
 }
 
 

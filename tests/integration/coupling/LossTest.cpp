@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "ServerProcess.hpp"
+#include "SharedMemoryNames.hpp"
 #include "UniformFluid.hpp"
 
 namespace gimdem::test
@@ -33,6 +34,13 @@ protected:
         client.emplace(std::vector<std::string>{GIMDEM_SCRIPTED_CLIENT, server.endpoint(), timeout_seconds, endless},
                        folder / "client.txt");
         ASSERT_TRUE(client->wait_for_output("step 3\n", soon)) << client->output();
+    }
+
+    /// Neither process has left a name in shared memory.
+    void expect_no_shared_memory(ServerProcess& server) const
+    {
+        EXPECT_THAT(shared_memory_names(client->id()), testing::IsEmpty());
+        EXPECT_THAT(shared_memory_names(server.process().id()), testing::IsEmpty());
     }
 
     /// Steps until the server is lost; returns why.
@@ -70,6 +78,7 @@ TEST_P(Loss, OfAKilledClientEndsTheServerAtOnce)
     server.expect_end(1, "client \"scripted client\" at ", at_once);
     EXPECT_THAT(server.process().output(), testing::HasSubstr("has disappeared"));
     EXPECT_TRUE(std::filesystem::exists(server.result("particles_last.h5"))) << "the last state was not kept";
+    expect_no_shared_memory(server);
 }
 
 TEST_P(Loss, OfAStoppedClientEndsTheServerInTimeAndTheClientHearsWhy)
@@ -96,6 +105,7 @@ TEST_P(Loss, OfAKilledServerEndsTheClientAtOnce)
     EXPECT_THAT(client->output(), testing::HasSubstr("server \"gimdem-server"));
     EXPECT_THAT(client->output(), testing::HasSubstr("has disappeared"));
     EXPECT_EQ(server.process().wait(soon), 128 + SIGKILL);
+    expect_no_shared_memory(server);
 
     // What the dead server left behind is in nobody's way.
     ServerProcess next(endpoint);

@@ -24,7 +24,8 @@ void run(std::string const& endpoint, double timeout, int steps)
     options.timeout = timeout;
     coupling::Client client(options);
     client.connect(test::air);
-    coupling::Mesh const mesh = test::BoxMesh::make({4, 4, 8}, {0.06, 0.06, 0.12});
+    // 1024 cells: vector fields are large enough for shared memory.
+    coupling::Mesh const mesh = test::BoxMesh::make({8, 8, 16}, {0.06, 0.06, 0.12});
     client.send_mesh(test::view_of(mesh));
 
     test::UniformFluid const fluid(static_cast<std::size_t>(mesh.cell_count), {0, 0, 1});

@@ -37,6 +37,7 @@ struct ClientOptions
     double step_time = 3600;           ///< longest wait for the answer of a live server [s]
     std::optional<Schedule> schedule;  ///< ask for one; left empty, the server's case file decides
     std::vector<std::string> wants;  ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
+    bool shared_memory = true;       ///< over ipc, let large fields travel through shared memory if the server can
 };
 
 /// The server's answer to Hello.
@@ -55,7 +56,7 @@ struct ExchangeTimes
 {
     double exchange = 0;  ///< packing, sending, receiving: the part of a call that is not the server computing [s]
     double waiting = 0;   ///< blocked while the server computes [s]
-    double bytes = 0;     ///< sent and received
+    double bytes = 0;     ///< sent and received, through shared memory too
 };
 
 class Client
@@ -87,6 +88,9 @@ public:
     SolidFields const& solid() const;
     Welcome const& welcome() const;
     ExchangeTimes const& exchange_times() const;
+    /// For the log, after send_mesh(): why fields do not travel through shared memory though both sides want it; empty
+    /// if there is nothing to tell.
+    std::string const& shared_memory_note() const;
 
     /// Orderly end: Goodbye. Later calls are illegal.
     void finish(std::string const& reason);

@@ -33,6 +33,7 @@ struct ServerOptions
     double timeout = 30;        ///< a client silent for this long is dead [s]
     double connect_time = 120;  ///< how long to wait for a client [s]
     double step_time = 3600;    ///< longest wait for the next message of a live client [s]
+    bool shared_memory = true;  ///< over ipc, let large fields travel through shared memory if the client can
 };
 
 /// What the case file fixes and the client is told.
@@ -103,8 +104,12 @@ public:
     /// Ask the client for an orderly end (Ctrl-C here): the next solid carries the reason, Client::stop_request().
     void request_stop(std::string const& reason);
 
-    /// Bytes received and sent so far.
+    /// Bytes received and sent so far, through shared memory too.
     double bytes() const;
+
+    /// For the log, after accept_mesh(): why fields do not travel through shared memory though both sides want it;
+    /// empty if there is nothing to tell.
+    std::string const& shared_memory_note() const;
 
 private:
     struct Impl;

@@ -47,37 +47,66 @@ void serve(Server& server)
         server.send_solid(fields.solid(), {});
 }
 
-TEST(RoundTrip, OfTheWachemBedTakesAboutAMillisecond)
+/// One way for the fields to travel.
+struct Way
 {
-    int constexpr steps = 200;
-    Server server(server_options(unused_ipc_endpoint()));
+    std::string name;
+    std::string endpoint;
+    bool shared_memory;
+};
+
+struct Cost
+{
+    std::vector<double> milliseconds;  ///< of each step, sorted
+    double bytes = 0;                  ///< of a step
+    std::string note;
+};
+
+Cost measure(Way const& way, int steps)
+{
+    Server server(server_options(way.endpoint));
     auto served = in_background([&] { serve(server); });
     Mesh const mesh = BoxMesh::make({26, 2, 140}, {0.15, 0.012, 0.8});
     BigFields const fields(static_cast<std::size_t>(mesh.cell_count));
-    Client client(client_options(server.endpoint()));
+    ClientOptions options = client_options(server.endpoint());
+    options.shared_memory = way.shared_memory;
+    Client client(options);
     client.connect({1.28, 1.7e-5});
     client.send_mesh(view_of(mesh));
     double const bytes_before = client.exchange_times().bytes;
 
-    std::vector<double> milliseconds;
+    Cost cost;
     for (int n = 1; n <= steps; ++n)
     {
         auto const start = Clock::now();
         client.begin_step(step(n), fields.fluid());
-        milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+        cost.milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
         client.end_step();
     }
-    double const bytes = (client.exchange_times().bytes - bytes_before) / steps;
+    cost.bytes = (client.exchange_times().bytes - bytes_before) / steps;
+    cost.note = client.shared_memory_note();
     client.finish("measured");
     served.get();
+    std::sort(cost.milliseconds.begin(), cost.milliseconds.end());
+    return cost;
+}
 
-    std::sort(milliseconds.begin(), milliseconds.end());
-    double const median = milliseconds[milliseconds.size() / 2];
-    std::printf("figure: round_trip_bytes = %.0f [byte]\n", bytes);
-    std::printf("figure: round_trip_time_median = %.3f [ms]\n", median);
-    std::printf("figure: round_trip_time_p95 = %.3f [ms]\n", milliseconds[milliseconds.size() * 95 / 100]);
-    EXPECT_GT(bytes, least_bytes);
-    EXPECT_LT(median, 1000);  // 2000 times what an idle machine needs: no claim, the figures are
+TEST(RoundTrip, OfTheWachemBedOverEachTransport)
+{
+    int constexpr steps = 200;
+    for (Way const& way : {Way{"shared_memory", unused_ipc_endpoint(), true}, Way{"ipc", unused_ipc_endpoint(), false},
+                           Way{"tcp", any_tcp_endpoint(), true}})
+    {
+        Cost const cost = measure(way, steps);
+        double const median = cost.milliseconds[steps / 2];
+        char const* const name = way.name.c_str();
+        std::printf("figure: round_trip_bytes over %s = %.0f [byte]\n", name, cost.bytes);
+        std::printf("figure: round_trip_time_median over %s = %.3f [ms]\n", name, median);
+        std::printf("figure: round_trip_time_p95 over %s = %.3f [ms]\n", name, cost.milliseconds[steps * 95 / 100]);
+        EXPECT_GT(cost.bytes, least_bytes);
+        EXPECT_EQ(cost.note, "");
+        EXPECT_LT(median, 1000);  // 1000 times what an idle machine needs: no claim, the figures are
+    }
 }
 
 }  // namespace

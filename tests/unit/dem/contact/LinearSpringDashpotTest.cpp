@@ -21,7 +21,7 @@ TEST(LinearSpringDashpot, RestitutionAndDurationAreThoseOfTheDampedOscillator)
     for (double const e : {0.1, 0.3, 0.5, 0.7, 0.9, 1.0})
     {
         ContactScene impact(linear_case(stiffness, e, density),
-                            {{{0.4, 0.5, 0.5}, radius, {0.2, 0, 0}}, {{0.402 + 1e-9, 0.5, 0.5}, radius, {}}});
+                            {{{0.4, 0.5, 0.5}, radius, {0.2, 0, 0}}, {{0.402 + 1e-9, 0.5, 0.5}, radius, {0, 0, 0}}});
         double const beta = -std::log(e) / std::hypot(std::log(e), std::numbers::pi);
         double const expected = LinearSpringDashpot::duration(stiffness, mass / 2) / std::sqrt(1 - beta * beta);
         double const dt = expected / 4000;
@@ -40,7 +40,7 @@ TEST(LinearSpringDashpot, RestitutionAndDurationAreThoseOfTheDampedOscillator)
 TEST(LinearSpringDashpot, ElasticDepthIsThatOfTheOscillator)
 {
     ContactScene impact(linear_case(stiffness, 1, density),
-                        {{{0.4, 0.5, 0.5}, radius, {0.2, 0, 0}}, {{0.402 + 1e-12, 0.5, 0.5}, radius, {}}});
+                        {{{0.4, 0.5, 0.5}, radius, {0.2, 0, 0}}, {{0.402 + 1e-12, 0.5, 0.5}, radius, {0, 0, 0}}});
     double const dt = LinearSpringDashpot::duration(stiffness, mass / 2) / 2000;
     double deepest = 0;
     for (int s = 0; s < 2000; ++s)
