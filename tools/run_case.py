@@ -19,12 +19,10 @@ from endpoint import Endpoint
 from process import how_it_ended, spawn
 from record import RunRecord
 from report import print_results
-from run_folder import copy_case, latest_checkpoint, make_run_folder
+from restart import Restart, find_restart
+from run_folder import copy_case, make_run_folder
 from packages import setup
 from supervise import Child, Outcome, Supervisor
-
-TARGETS = ("gimdem-server", "gimdemFoam")
-
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("case", metavar="CASE_DIR", help="a folder with a case.toml")
@@ -37,7 +35,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--threads", metavar="N", type=count, help="threads of the server; 0: all cores (case.toml)")
     parser.add_argument("--ranks", metavar="N", type=count, default=1, help="processes of the client (1)")
     parser.add_argument("--restart", metavar="FILE",
-                        help="go on from a checkpoint, or from the latest of the case: --restart latest (no fluid)")
+                        help="go on from a checkpoint, or from the latest of the case: --restart latest")
     parser.add_argument("--output", metavar="DIR", help="run folder; must be new or empty (CASE_DIR/runs/NNNN)")
 
 
@@ -59,9 +57,10 @@ def run(options: argparse.Namespace) -> int:
     refuse_what_is_to_come(options.client, options.device, options.ranks)
     case_file = find_case_file(options.case)
     setup(quiet=True)
-    build(TARGETS)
+    build(("gimdem-server",))
     case = choose(describe(case_file), options)
     if case.client != "none":
+        build(("gimdemFoam",))
         check_openfoam_dictionaries(case)
     endpoint = Endpoint(case.endpoint)
     try:
@@ -83,8 +82,6 @@ def refuse_what_is_to_come(client: str | None, device: str, ranks: int) -> None:
 def check_client(case: CaseDescription, options: argparse.Namespace) -> None:
     if case.client == "none" and options.client:
         raise UserError(f"{shown(case.file)} has no fluid (client = \"none\"); leave out --client", 2)
-    if case.client != "none" and options.restart:
-        raise UserError("this version restarts runs without a fluid only; leave out --restart", 2)
 
 
 def choose(case: CaseDescription, options: argparse.Namespace) -> CaseDescription:
@@ -108,7 +105,7 @@ class Run:
     folder: Path
     endpoint: Endpoint
     threads: int | None
-    restart: Path | None = None  # checkpoint to go on from
+    restart: Restart | None = None
 
     @property
     def client_log(self) -> Path:
@@ -122,7 +119,7 @@ class Run:
         return {
             "case": str(self.case.file), "client": self.case.client, "grid": self.case.grid,
             "schedule": self.case.schedule, "until": self.case.until, "threads": self.threads,
-            "endpoint": self.endpoint.address, "restart": str(self.restart) if self.restart else None,
+            "endpoint": self.endpoint.address, "restart": str(self.restart.checkpoint) if self.restart else None,
         }
 
     def start_server(self, stderr: int) -> subprocess.Popen[bytes]:
@@ -133,7 +130,7 @@ class Run:
         if self.threads is not None:
             command += ["--threads", str(self.threads)]
         if self.restart:
-            command += ["--restart", str(self.restart)]
+            command += ["--restart", str(self.restart.checkpoint)]
         with self.server_log.open("ab") as log:
             return spawn(command, stdout=log, stderr=stderr, env=server_environment())
 
@@ -161,7 +158,8 @@ def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: 
     say("run", f"{shown(run.folder)}: {what}, until {case.until:g} s")
     copy_case(case, run.folder)
     if restart:
-        say("restart", shown(restart))
+        restart.copy_fluid(run.folder)
+        say("restart", shown(restart.checkpoint))
     if not alone:
         say("mesh", openfoam.make_mesh(run.folder))
     record = RunRecord(run.folder, run.settings())
@@ -177,14 +175,6 @@ def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: 
     if outcome.signal:
         say("stopped", f"by {signal.Signals(outcome.signal).name}, before the end")
     return exit_code(outcome)
-
-
-def find_restart(case: CaseDescription, wanted: str | None) -> Path | None:
-    if wanted == "latest":
-        return latest_checkpoint(case)
-    if wanted and not Path(wanted).is_file():
-        raise UserError(f"there is no checkpoint '{wanted}'; they are in the folder checkpoints of a run", 2)
-    return Path(wanted).resolve() if wanted else None
 
 
 def in_words(outcome: Outcome) -> str:

@@ -26,16 +26,6 @@ def make_run_folder(case: CaseDescription, output: str | None) -> Path:
     return folder
 
 
-def latest_checkpoint(case: CaseDescription) -> Path:
-    """The newest checkpoint of the newest run of a case that has one."""
-    for run in sorted((case.folder / "runs").glob("[0-9]*"), reverse=True):
-        found = sorted((run / "checkpoints").glob("step_*.h5"))
-        if found:
-            return found[-1]
-    raise UserError(f"no run of {shown(case.folder)} left a checkpoint (--restart latest goes on from one); run it "
-                    "from the start, or give the checkpoint's path", 2)
-
-
 def next_numbered(parent: Path) -> Path:
     """parent/0001, 0002, ...; two runs that start at once get two numbers."""
     try:

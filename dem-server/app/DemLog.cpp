@@ -87,15 +87,12 @@ Removed DemLog::removed() const
 void DemLog::write_row(RunPoint const& point)
 {
     ParticleState const& particles = system_.particles();
-    Vec3 wall = Vec3::Zero();
-    for (Quad const& force : system_.walls().force_on_particles().host())
-        wall += force.xyz();
     bool const any = particles.count() > 0;
     Removed const gone = removed();
     series_.append(std::vector<double>{
         point.time, static_cast<double>(particles.count()), any ? bed_height(particles, mesh_, up_) : 0,
         any ? centre_of_mass_height(particles, mesh_, up_) : 0, fastest(particles), kinetic_energy(particles),
-        wall.dot(up_), inserted(inlets_), static_cast<double>(gone.count), gone.mass});
+        system_.walls().total_force().dot(up_), inserted(inlets_), static_cast<double>(gone.count), gone.mass});
     auto const steps = static_cast<double>(std::max<std::int64_t>(1, point.step - last_row_.step));
     double const none = std::numeric_limits<double>::quiet_NaN();
     progress_.show(output::ProgressSample{.time = point.time,

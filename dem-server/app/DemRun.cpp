@@ -55,11 +55,7 @@ public:
     void restart(std::filesystem::path const& file)
     {
         start_ = at_ = read_checkpoint(file, settings_, inlets_, system_);
-        if (at_.step >= last_step_)
-            throw UserError(
-                fmt::format("checkpoint {} is at {:.6g} s, the run ends at {:.6g} s (nothing is left to do); give a "
-                            "later end with --until",
-                            file.string(), at_.time, settings_.run.until));
+        require_time_left(file, at_, settings_.run.until);
     }
 
     void run()
@@ -99,7 +95,7 @@ private:
 
     void keep()
     {
-        write_checkpoint(checkpoint_file(folder_, at_.step), settings_, at_, inlets_, system_);
+        write_checkpoint(checkpoint_file(folder_, at_), settings_, at_, inlets_, system_);
         keep_newest_checkpoints(folder_);
     }
 
@@ -129,6 +125,7 @@ void run_alone(Case const& settings, std::filesystem::path const& folder,
     check_time_step(settings, materials, particles);
     check_overlaps(exec::make_execution(settings.dem.backend, settings.dem.threads), particles,
                    Domain::of(settings.domain));
+    DomainBounds(settings.domain).check_start(particles);
     DemRun alone(settings, folder, materials, std::move(particles));
     if (restart) alone.restart(*restart);
     alone.run();

@@ -23,7 +23,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
     app.add_option("--until", options.until, "simulated time [s]")->check(CLI::PositiveNumber);
     app.add_option("--threads", options.threads, "threads for the particles, 0: all cores")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--restart", options.restart, "checkpoint to go on from; for a run without a fluid");
+    app.add_option("--restart", options.restart, "checkpoint to go on from");
     try
     {
         app.parse(argc, argv);
@@ -48,10 +48,6 @@ Case read_case_with(Options const& options)
         settings.run.until = *options.until;
     }
     if (options.threads) settings.dem.threads = *options.threads;
-    if (options.restart && settings.run.client != "none")
-        throw UserError(
-            "--restart needs a case without a fluid, client = \"none\" (this version does not restart a pair of "
-            "solvers); leave it out");
     return settings;
 }
 

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <utility>
 
 #include "app/RunLog.hpp"
 #include "core/Error.hpp"
+#include "engine/Checkpoint.hpp"
 #include "engine/CoupledEngine.hpp"
 #include "engine/InletFlow.hpp"
 #include "engine/Settling.hpp"
@@ -112,12 +114,17 @@ public:
     {
     }
 
-    void start()
+    void start(std::optional<std::filesystem::path> const& restart)
     {
-        settle_or_load(settings_, execution_, walls_, mesh_, system_, log_.progress());
-        Vec3 const up = upward(settings_);
-        log_.summary().add("settled_height", bed_height(system_.particles(), mesh_, up), "m");
-        log_.summary().add("settled_height_2z", 2 * centre_of_mass_height(system_.particles(), mesh_, up), "m");
+        if (restart)
+        {
+            system_.prepare();
+            start_ = at_ = read_checkpoint(*restart, settings_, inlets_, system_);
+            require_time_left(*restart, at_, settings_.run.until);
+            fmt::print(stderr, "gimdem-server: {} particles from {:.6g} s\n", system_.particles().count(), at_.time);
+        }
+        else
+            settle();
         engine_.set_inlets(inlets_);
         engine_.map_initial_state();
         server_.accept_mesh(engine_.fields());
@@ -129,13 +136,16 @@ public:
     {
         while (auto const fluid = server_.receive_fluid())
         {
+            if (at_.step == start_.step) check_start(fluid->step);
             double const output_time = log_.sample(*fluid, engine_);
             StepReport report = engine_.advance(fluid->step, fluid->fields);
             report.timings.output = output_time;
             if (interrupted()) server_.request_stop("interrupted by the user");
             server_.send_solid(engine_.fields(), report.timings);
             log_.record(*fluid, report, engine_);
-            time_ = fluid->step.time + fluid->step.dt;
+            double const before = at_.time;
+            at_ = {at_.step + 1, fluid->step.time + fluid->step.dt};
+            if (is_checkpoint_between(before, at_.time)) keep();
         }
     }
 
@@ -143,10 +153,42 @@ public:
     void finish()
     {
         log_.finish(server_.bytes());
-        write_state(folder_ / "particles_last.h5", "particles", system_, time_);
+        keep();
     }
 
 private:
+    void settle()
+    {
+        settle_or_load(settings_, execution_, walls_, mesh_, system_, log_.progress());
+        Vec3 const up = upward(settings_);
+        log_.summary().add("settled_height", bed_height(system_.particles(), mesh_, up), "m");
+        log_.summary().add("settled_height_2z", 2 * centre_of_mass_height(system_.particles(), mesh_, up), "m");
+    }
+
+    /// The fluid of a restarted run must begin where the particles are. A wrong pair is off by a step at least; names
+    /// of time folders are off by rounding.
+    void check_start(coupling::Step const& first) const
+    {
+        if (start_.step == 0 || std::abs(first.time - start_.time) < 0.1 * first.dt) return;
+        throw UserError(
+            fmt::format("the fluid begins at {:.9g} s, the checkpoint of the particles is at {:.9g} s (they must be of "
+                        "one time); start the client from its fields at {:.9g} s",
+                        first.time, start_.time, start_.time));
+    }
+
+    bool is_checkpoint_between(double before, double now) const
+    {
+        double const interval = settings_.output.checkpoint_interval;
+        auto const count = [=](double time) { return std::floor(time / interval + 1e-6); };
+        return interval > 0 && count(now) > count(before);
+    }
+
+    void keep()
+    {
+        write_checkpoint(checkpoint_file(folder_, at_), settings_, at_, inlets_, system_);
+        keep_newest_checkpoints(folder_);
+    }
+
     Case const& settings_;
     coupling::Server& server_;
     coupling::Schedule schedule_;
@@ -158,12 +200,12 @@ private:
     std::filesystem::path folder_;
     RunLog log_;
     CoupledEngine engine_;
-    double time_ = 0;
+    RunPoint start_, at_;  ///< in coupling steps
 };
 
 }  // namespace
 
-void run(Case const& settings, std::filesystem::path const& folder)
+void run(Case const& settings, std::filesystem::path const& folder, std::optional<std::filesystem::path> const& restart)
 {
     refuse_periodic_coupled_run(settings);
     std::filesystem::create_directories(folder);
@@ -184,7 +226,7 @@ void run(Case const& settings, std::filesystem::path const& folder)
         coupling::ClientInfo const client = server.wait_for_client(terms_of(settings));
         fmt::print(stderr, "gimdem-server: {} connected\n", client.name);
         CoupledRun coupled(settings, folder, server, client, std::move(particles), materials);
-        coupled.start();
+        coupled.start(restart);
         try
         {
             coupled.couple();

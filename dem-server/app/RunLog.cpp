@@ -66,8 +66,7 @@ RunLog::RunLog(Case const& settings, std::filesystem::path folder, PolyMesh cons
       up_(upward(settings)),
       inlet_(named_patch(mesh, settings.output.inlet, "inlet")),
       outlet_(named_patch(mesh, settings.output.outlet, "outlet")),
-      frames_(folder_, mesh.topology()),
-      last_momentum_(momentum(system.particles()))
+      frames_(folder_, mesh.topology())
 {
     for (PlaneSettings const& plane : settings.output.planes)
         planes_.emplace_back(mesh, plane);
@@ -80,6 +79,7 @@ double RunLog::sample(coupling::FluidState const& fluid, CoupledEngine const& en
     {
         start_ = start;
         first_time_ = fluid.step.time;
+        last_momentum_ = momentum(system_.particles());
         open_series(fluid);
     }
     auto const due = [&](std::int64_t count, double interval)

@@ -45,7 +45,7 @@ int main(int argc, char** argv)
         if (settings.run.client == "none")
             gimdem::app::run_alone(settings, options->run_folder, options->restart);
         else
-            gimdem::app::run(settings, options->run_folder);
+            gimdem::app::run(settings, options->run_folder, options->restart);
         return 0;
     }
     catch (std::exception const& error)

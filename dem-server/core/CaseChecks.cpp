@@ -172,9 +172,9 @@ void check_case(Case const& input, Document const& document)
     check_contacts(input, document);
     check_contact_laws(input, document);
     check_material_exists(input.walls.material, "walls.material", input, document);
-    check_domain(input, document);
     check_insertions(input, document);
     check_inlets(input, document);
+    check_domain(input, document);
     check_pairs_in_use(input, document);
     check_output(input.output, document);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -98,6 +99,34 @@ void check_sides(std::vector<std::string> const& names, std::string const& key, 
     }
 }
 
+/// Lower and upper end of an inlet's region along an axis [m].
+std::array<double, 2> extent_of(InletSettings const& inlet, std::size_t axis)
+{
+    if (inlet.radius == 0) return {inlet.box[0][axis], inlet.box[1][axis]};
+    double const length = std::hypot(inlet.normal[0], inlet.normal[1], inlet.normal[2]);
+    double const cosine = inlet.normal[axis] / length;
+    double const reach = inlet.radius * std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    return {inlet.centre[axis] - reach, inlet.centre[axis] + reach};
+}
+
+/// Particles that appear outside of the box would be removed at once, and a periodic image could be taken already.
+void check_inlets_are_inside(Case const& input, Document const& document)
+{
+    auto const& box = input.domain.box;
+    for (std::size_t i = 0; i < input.inlets.size(); ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+            auto const [low, high] = extent_of(input.inlets[i], axis);
+            double const rounding = 1e-9 * (box[1][axis] - box[0][axis]);
+            if (low >= box[0][axis] - rounding && high <= box[1][axis] + rounding) continue;
+            throw UserError(document.at(entry("inlets", i, input.inlets[i].radius > 0 ? "centre" : "box")) +
+                            ": the region of [[inlets]] goes from " + to_text(low) + " to " + to_text(high) +
+                            " m along " + "xyz"[axis] + ", beyond the box of [domain], " + to_text(box[0][axis]) +
+                            " to " + to_text(box[1][axis]) +
+                            " m (what appears out there is lost); move the region into the box");
+        }
+}
+
 /// A run without a fluid: its box, and sections that it cannot have.
 void check_run_alone(Case const& input, Document const& document)
 {
@@ -116,6 +145,7 @@ void check_run_alone(Case const& input, Document const& document)
         if (document.has(section))
             throw UserError(document.at(section) + ": " + section +
                             " has no effect in a run without a fluid (client is \"none\"); remove it");
+    check_inlets_are_inside(input, document);
 }
 
 }  // namespace

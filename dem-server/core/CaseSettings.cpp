@@ -266,7 +266,7 @@ Fields<OutputSettings> const& settings_of(OutputSettings const&)
         optional("particle_interval", &S::particle_interval, "s", at_least(0), "1e-2",
                  "between ParaView files, 0: none"),
         optional("checkpoint_interval", &S::checkpoint_interval, "s", at_least(0), "0.1",
-                 "between checkpoints of a run without a fluid, 0: one at the end"),
+                 "between checkpoints, 0: one at the end; with OpenFOAM a multiple of writeInterval"),
         optional("planes",            &S::planes,            "over which pressure and void fraction are averaged"),
         optional("inlet",             &S::inlet,             "", not_empty(), "\"inlet\"",
                  "the pressure drop is taken from this patch"),

@@ -109,7 +109,7 @@ void check_case(output::SnapshotReader const& reader, Case const& settings, std:
 }  // namespace
 
 void write_checkpoint(std::filesystem::path const& file, Case const& settings, RunPoint const& point,
-                      std::vector<Inlet> const& inlets, DemSystem& system)
+                      std::vector<Inlet> const& inlets, DemSystem const& system)
 {
     std::filesystem::create_directories(file.parent_path());
     output::SnapshotWriter writer(file, kind);
@@ -123,7 +123,6 @@ void write_checkpoint(std::filesystem::path const& file, Case const& settings, R
     add_removed(writer, system.removed());
     add_state(writer, system);
     writer.commit();
-    system.rebuild();
 }
 
 RunPoint read_checkpoint(std::filesystem::path const& file, Case const& settings, std::vector<Inlet>& inlets,
@@ -143,9 +142,18 @@ RunPoint read_checkpoint(std::filesystem::path const& file, Case const& settings
     return point;
 }
 
-std::filesystem::path checkpoint_file(std::filesystem::path const& folder, std::int64_t step)
+void require_time_left(std::filesystem::path const& file, RunPoint const& point, double until)
 {
-    return folder / "checkpoints" / fmt::format("step_{:09}.h5", step);
+    if (point.time < until * (1 - 1e-9)) return;
+    throw UserError(
+        fmt::format("checkpoint {} is at {:.6g} s, the run ends at {:.6g} s (nothing is left to do); give a later end "
+                    "with --until",
+                    file.string(), point.time, until));
+}
+
+std::filesystem::path checkpoint_file(std::filesystem::path const& folder, RunPoint const& point)
+{
+    return folder / "checkpoints" / fmt::format("step_{:09}_at_{:.9g}.h5", point.step, point.time);
 }
 
 void keep_newest_checkpoints(std::filesystem::path const& folder)
@@ -154,7 +162,7 @@ void keep_newest_checkpoints(std::filesystem::path const& folder)
     for (auto const& entry : std::filesystem::directory_iterator(folder / "checkpoints"))
         if (entry.path().extension() == ".h5") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
-    for (std::size_t k = 0; k + 2 < files.size(); ++k)
+    for (std::size_t k = 0; k + 3 < files.size(); ++k)
         std::filesystem::remove(files[k]);
 }
 

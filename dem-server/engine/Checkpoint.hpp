@@ -23,20 +23,23 @@ struct RunPoint
     double time = 0;        ///< [s]
 };
 
-/// Writes the checkpoint, whole or not at all, then has the system build its neighbour list anew, as the run that
-/// starts from the checkpoint will.
+/// Writes the checkpoint, whole or not at all. The run goes on as if nothing had been written.
 void write_checkpoint(std::filesystem::path const& file, Case const& settings, RunPoint const& point,
-                      std::vector<Inlet> const& inlets, DemSystem& system);
+                      std::vector<Inlet> const& inlets, DemSystem const& system);
 
 /// Puts a checkpoint in place of the state of a system and the inlets that were made from the same case. Throws
 /// UserError for a file that is cut short, changed, of another version or of another case; nothing is changed then.
 RunPoint read_checkpoint(std::filesystem::path const& file, Case const& settings, std::vector<Inlet>& inlets,
                          DemSystem& system);
 
-/// checkpoints/step_000000123.h5 in a run folder.
-std::filesystem::path checkpoint_file(std::filesystem::path const& folder, std::int64_t step);
+/// Throws UserError for a run that would end at `until` [s], where its checkpoint is, or before.
+void require_time_left(std::filesystem::path const& file, RunPoint const& point, double until);
 
-/// Removes all but the two newest checkpoints of a run folder.
+/// checkpoints/step_000000123_at_0.00123.h5 in a run folder: the step, and the time [s] for whoever looks for it.
+std::filesystem::path checkpoint_file(std::filesystem::path const& folder, RunPoint const& point);
+
+/// Removes all but the three newest checkpoints of a run folder: where the other solver died while it wrote its fields
+/// of the last but one, it has those of the one before.
 void keep_newest_checkpoints(std::filesystem::path const& folder);
 
 }  // namespace gimdem

@@ -69,12 +69,13 @@ public:
     /// present positions afterwards. Returns how many were removed.
     std::int64_t remove(std::span<std::int32_t const> cause, std::vector<std::string> const& causes);
 
-    /// Builds the neighbour list anew from what a checkpoint holds, so that a run that writes one and a run that starts
-    /// from it go on in the same order of summation.
+    /// Builds the neighbour list anew and computes the forces at the present positions.
     void rebuild();
 
-    /// Sizes what is held per particle after particles() was replaced.
-    void take_count();
+    /// After particles(), and of neighbors() and walls().pairs() the places where the list was built, the rows and the
+    /// springs were replaced by those of a state: builds the same list, and goes on from it as the state would have,
+    /// to the bit. `wall_force`: what total_force() of the walls was [N].
+    void resume(Vec3 const& wall_force);
 
     RemovedByCause& removed() { return removed_; }
     RemovedByCause const& removed() const { return removed_; }

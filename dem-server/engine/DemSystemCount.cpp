@@ -108,13 +108,25 @@ std::int64_t DemSystem::remove(std::span<std::int32_t const> cause, std::vector<
     return before - after;
 }
 
-void DemSystem::take_count()
+// The list is a function of the positions it was built at, in their order: sorted as they are, they stay in place. The
+// pairs that it finds are then those of the state, in the same order of summation.
+void DemSystem::resume(Vec3 const& wall_force)
 {
+    particle_contacts_.set_one_size(have_one_size(particles_));
     impulses_.resize(particles_.count());
     impulses_.fill({});
     next_id_ = 0;
     for (std::int64_t const id : particles_.id.host())
         next_id_ = std::max(next_id_, id + 1);
+    if (particles_.count() == 0) return rebuild();
+    exec::Buffer<Quad> now = neighbors_.built_at;
+    swap(particles_.position, now);
+    auto const order = search_.build(particles_, neighbors_);
+    wall_contacts_.build(particles_, search_.skin(), order);
+    permute(execution_, now, order);
+    swap(particles_.position, now);
+    wall_contacts_.set_total_force(wall_force);
+    if (on_permutation_) on_permutation_(order);
 }
 
 void DemSystem::rebuild()

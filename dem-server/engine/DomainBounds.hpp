@@ -21,11 +21,15 @@ class DomainBounds
 public:
     explicit DomainBounds(DomainSettings const& domain);
 
+    /// Throws UserError for a particle that starts beyond a side, or deeper in a wall than 1 % of its diameter.
+    void check_start(ParticleState const& particles) const;
+
     /// Returns how many particles were removed; they are counted as "through SIDE".
     std::int64_t remove_leavers(DemSystem& system) const;
 
 private:
-    std::int32_t side_left(Quad const& x) const;  ///< -1: none
+    double beyond(Quad const& x, std::size_t side) const;  ///< of the centre [m]; negative: within
+    std::int32_t side_left(Quad const& x) const;           ///< -1: none
 
     std::array<Triple, 2> box_;
     std::array<bool, 3> periodic_;

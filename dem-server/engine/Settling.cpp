@@ -26,7 +26,7 @@ namespace
 /// Everything that decides what a settled bed looks like.
 std::string description(Case const& settings)
 {
-    std::string text = "settled bed 1\n";
+    std::string text = "settled bed 2\n";
     auto const add = [&](auto const&... values) { ((text += fmt::format("{} ", values)), ...); };
     auto const add_triple = [&](Triple const& t) { add(t[0], t[1], t[2]); };
     add(settings.dem.time_step);

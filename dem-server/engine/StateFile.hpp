@@ -8,7 +8,8 @@
 namespace gimdem
 {
 
-/// Adds positions, velocities, spins, materials, ids, and the springs of contacts with particles and walls.
+/// Adds positions, velocities, spins, forces, materials, ids, the springs of contacts with particles and walls, and
+/// where the particles were when their neighbour list was built. The list itself follows from that.
 void add_state(output::SnapshotWriter& writer, DemSystem const& system);
 
 /// Puts the particles and springs of a snapshot in place of the system's own, however many they are. Throws UserError,

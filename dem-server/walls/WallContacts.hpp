@@ -53,6 +53,8 @@ public:
 
     /// Its sum over all particles [N].
     Vec3 total_force() const { return total_force_.xyz(); }
+    /// Puts it back, after a restart.
+    void set_total_force(Vec3 const& force) { total_force_.set_xyz(force); }
 
     static constexpr int most_planes = 16;  ///< near one particle
 

@@ -50,6 +50,10 @@ class Alone(FrontDoorTest):
         summary = json.loads((self.run_folder(number) / "summary.json").read_text())
         return {figure["name"]: figure["value"] for figure in summary["figures"]}
 
+    def rows(self, number: int) -> list[str]:
+        """Of bed.csv, without its header."""
+        return (self.run_folder(number) / "bed.csv").read_text().splitlines()[1:]
+
     def checkpoints(self, number: int) -> list[Path]:
         return sorted((self.run_folder(number) / "checkpoints").iterdir())
 
@@ -65,21 +69,27 @@ class Alone(FrontDoorTest):
         self.assertEqual(whole["removed_through_xmax"], whole["particles_removed"])
         self.assertEqual(whole["particles"], 300 + whole["particles_inserted"] - whole["particles_removed"])
         self.assertIn("figure: particles_removed = ", out)
-        # Every 1471 steps, and at the end; the two newest are kept.
-        self.assertEqual([file.name for file in self.checkpoints(1)], ["step_000002942.h5", "step_000003530.h5"])
+        # Every 1471 steps, and at the end.
+        self.assertEqual([file.name[:14] for file in self.checkpoints(1)],
+                         ["step_000001471", "step_000002942", "step_000003530"])
+        self.assertEqual(self.checkpoints(1)[0].name, "step_000001471_at_0.050014.h5")
 
         code, _, err = self.gimdem("run", self.case, "--threads", "2", "--restart", self.checkpoints(1)[0])
         self.assertEqual(code, 0, err)
         # The same bytes: the same state to the bit.
         self.assertEqual(self.checkpoints(1)[-1].read_bytes(), self.checkpoints(2)[-1].read_bytes())
-        self.assertEqual(self.figures(2)["dem_steps"], 3530 - 2942)
+        self.assertEqual(self.figures(2)["dem_steps"], 3530 - 1471)
+        # So are the rows of the time series that both have: one every 29 steps.
+        whole_rows, rows = (self.rows(number) for number in (1, 2))
+        self.assertGreater(len(rows), 50)
+        self.assertEqual(rows, whole_rows[-len(rows):])
 
         code, _, err = self.gimdem("run", self.case, "--restart", "latest")
         self.assertEqual(code, 1, err)
         self.assert_one_error(err, "nothing is left to do", "--until")
         code, _, err = self.gimdem("run", self.case, "--restart", "latest", "--until", "0.13")
         self.assertEqual(code, 0, err)
-        self.assertEqual(self.checkpoints(4)[-1].name, "step_000003824.h5")
+        self.assertEqual(self.checkpoints(4)[-1].name[:14], "step_000003824")
 
     def test_bad_checkpoints_are_refused_and_nothing_is_overwritten(self) -> None:
         self.edit(r"^until = .*$", "until = 0.01")
@@ -100,18 +110,21 @@ class Alone(FrontDoorTest):
         self.assert_one_error(err, "belongs to another case")
         self.assertEqual(tree_of(self.run_folder(1)), before)
 
-    def test_interrupt_leaves_a_checkpoint_to_go_on_from(self) -> None:
+    def test_interrupted_run_goes_on_as_if_it_had_not_been(self) -> None:
         process = self.start("run", self.case, "--until", "500")
         series = self.run_folder(1) / "bed.csv"
         self.wait_until(lambda: series.exists() and len(series.read_text().splitlines()) > 5, "samples")
         process.send_signal(signal.SIGINT)
         code, _, err = self.finish(process)
         self.assertEqual(code, 130, err)
-        self.assertEqual(len(self.checkpoints(1)), 1)
-        step = int(self.checkpoints(1)[0].stem.removeprefix("step_"))
-        code, _, err = self.gimdem("run", self.case, "--restart", "latest", "--until", repr((step + 40) * 3.4e-5))
+        step = int(self.checkpoints(1)[-1].name[5:14])
+        until = repr((step + 40) * 3.4e-5)
+        code, _, err = self.gimdem("run", self.case, "--restart", "latest", "--until", until)
         self.assertEqual(code, 0, err)
         self.assertEqual(self.figures(2)["dem_steps"], 40)
+        self.edit(r"^checkpoint_interval = .*$", "checkpoint_interval = 0.0")
+        self.assertEqual(self.gimdem("run", self.case, "--until", until)[0], 0)
+        self.assertEqual(self.checkpoints(2)[-1].read_bytes(), self.checkpoints(3)[-1].read_bytes())
 
     def test_no_client_can_be_asked_for(self) -> None:
         code, _, err = self.gimdem("run", self.case, "--client", "openfoam")

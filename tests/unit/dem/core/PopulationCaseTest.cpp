@@ -122,6 +122,19 @@ TEST(PopulationCase, RunWithoutAFluidNeedsItsDomain)
                 HasSubstr("[domain] has no effect"));
 }
 
+TEST(PopulationCase, InletOutsideOfTheDomainIsRefused)
+{
+    EXPECT_EQ(message_of(alone() + inlet), "no error");
+    EXPECT_THAT(message_of(alone() + test::with(inlet, "0.41]]", "0.51]]")),
+                HasSubstr("goes from 0.4 to 0.51 m along z, beyond the box of [domain], 0 to 0.5 m"));
+    std::string const disc = test::with(inlet, "box = [[0, 0, 0.4], [0.09, 0.008, 0.41]]",
+                                        "centre = [0.045, 0.004, 0.5]\nnormal = [0, 0, 2]\nradius = 0.004");
+    EXPECT_EQ(message_of(alone() + disc), "no error") << "it may touch the sides";
+    EXPECT_THAT(message_of(alone() + test::with(disc, "[0, 0, 2]", "[0, 1, 1]")), HasSubstr("0.502828"));
+    EXPECT_THAT(message_of(alone() + test::with(disc, "radius = 0.004", "radius = 0.005")),
+                HasSubstr("goes from -0.001 to 0.009 m along y"));
+}
+
 TEST(PopulationCase, PeriodicAxisHasNoSides)
 {
     auto const domain = [](std::string const& open)

@@ -103,6 +103,31 @@ TEST(DomainBounds, ParticleBeyondAWallIsCountedAsSuch)
     boxed.run(10);
 }
 
+TEST(DomainBounds, WhatStartsOutsideOrInAWallIsRefused)
+{
+    gimdem::DomainBounds const bounds(box({"zmax"}, {false, true, false}));
+    auto const message = [&](Vec3 const& x)
+    {
+        try
+        {
+            bounds.check_start(particles_of({{{0.01, 0.01, 0.01}, 1e-3}, {x, 1e-3}}));
+            return std::string();
+        }
+        catch (gimdem::UserError const& error)
+        {
+            return std::string(error.what());
+        }
+    };
+    EXPECT_EQ(message({0.01, 0.01, 0.02}), "");
+    EXPECT_EQ(message({0.99e-3, -0.1, 0.0399}), "") << "a little overlap, beyond a periodic side, across an open one";
+    EXPECT_NE(
+        message({0.97e-3, 0.01, 0.02}).find("particle 1 at (0.00097, 0.01, 0.02) m overlaps the wall xmin by 3e-05"),
+        std::string::npos)
+        << message({0.97e-3, 0.01, 0.02});
+    EXPECT_NE(message({0.01, 0.01, 0.041}).find("is 0.001 m beyond the side zmax"), std::string::npos);
+    EXPECT_NE(message({0.021, 0.01, 0.02}).find("is 0.001 m beyond the side xmax"), std::string::npos);
+}
+
 TEST(DomainBounds, PeriodicAxisHasNeitherWallNorEnd)
 {
     // The same slide along the floor: through the border at xmax, edge of the floor included, and in the middle.
