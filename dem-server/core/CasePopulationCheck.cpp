@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -119,11 +121,12 @@ void check_inlets_are_inside(Case const& input, Document const& document)
             auto const [low, high] = extent_of(input.inlets[i], axis);
             double const rounding = 1e-9 * (box[1][axis] - box[0][axis]);
             if (low >= box[0][axis] - rounding && high <= box[1][axis] + rounding) continue;
-            throw UserError(document.at(entry("inlets", i, input.inlets[i].radius > 0 ? "centre" : "box")) +
-                            ": the region of [[inlets]] goes from " + to_text(low) + " to " + to_text(high) +
-                            " m along " + "xyz"[axis] + ", beyond the box of [domain], " + to_text(box[0][axis]) +
-                            " to " + to_text(box[1][axis]) +
-                            " m (what appears out there is lost); move the region into the box");
+            throw UserError(
+                fmt::format("{}: the region of [[inlets]] goes from {:.6g} to {:.6g} m along {}, beyond the box of "
+                            "[domain], {:.6g} to "
+                            "{:.6g} m (what appears out there is lost); move the region into the box",
+                            document.at(entry("inlets", i, input.inlets[i].radius > 0 ? "centre" : "box")), low, high,
+                            "xyz"[axis], box[0][axis], box[1][axis]));
         }
 }
 

@@ -126,6 +126,26 @@ class Alone(FrontDoorTest):
         self.assertEqual(self.gimdem("run", self.case, "--until", until)[0], 0)
         self.assertEqual(self.checkpoints(2)[-1].read_bytes(), self.checkpoints(3)[-1].read_bytes())
 
+    def test_particles_that_cannot_be_are_refused(self) -> None:
+        text = self.case_file.read_text()
+        begin, end = text.index("diameter ="), text.index("[output]")
+        self.case_file.write_text(text[:begin] + 'arrangement = "file"\nfile = "beads.csv"\n' + text[end:])
+        good = "0.01,0.004,0.1,7.7e-4\n"
+        for line, words in (
+            (good, ("particles 0 and 1 overlap by 0.00154 m",)),
+            ("0.01,0.004,0.1013,7.7e-4\n", ("overlap by 0.00024 m",)),
+            ("0.02,0.004,nan,7.7e-4\n", ("beads.csv:3", '"nan" is not a finite number')),
+            ("0.02,0.004,0.1,0\n", ("beads.csv:3", "radius 0 m")),
+            ("0.02,0.004,0.1,1e-110\n", ("has no mass",)),
+            ("0.0005,0.004,0.1,7.7e-4\n", ("particle 1 at (0.0005, 0.004, 0.1) m overlaps the wall xmin",)),
+            ("0.02,0.004,0.6,7.7e-4\n", ("is 0.1 m beyond the side zmax",)),
+            ("0.02,0.004\n", ("beads.csv:3", "2 numbers where the header names 4")),
+        ):
+            (self.case / "beads.csv").write_text("x,y,z,radius\n" + good + line)
+            code, _, err = self.gimdem("run", self.case)
+            self.assertEqual(code, 1, err)
+            self.assert_one_error(err, *words)
+
     def test_no_client_can_be_asked_for(self) -> None:
         code, _, err = self.gimdem("run", self.case, "--client", "openfoam")
         self.assertEqual(code, 2)
