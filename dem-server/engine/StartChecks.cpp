@@ -9,6 +9,7 @@
 
 #include "contact/LinearSpringDashpot.hpp"
 #include "core/Error.hpp"
+#include "particles/SizeDistribution.hpp"
 #include "search/NeighborList.hpp"
 
 namespace gimdem
@@ -30,6 +31,13 @@ double shortest_linear_contact(Case const& settings, Materials const& materials,
     {
         double& mass = lightest[static_cast<std::size_t>(particles.material[p])];
         mass = std::min(mass, 1 / particles.velocity[p].w);
+    }
+    for (InletSettings const& inlet : settings.inlets)
+    {
+        int const material = materials.number_of(inlet.material);
+        double const radius = SizeDistribution(inlet.diameter, inlet.sizes).smallest() / 2;
+        double& mass = lightest[static_cast<std::size_t>(material)];
+        mass = std::min(mass, materials[material].density * sphere_volume(radius));
     }
     double shortest = none;
     auto const meet = [&](int a, int b, double inverse_mass)
@@ -74,7 +82,11 @@ void check_time_step(Case const& settings, Materials const& materials, ParticleS
 {
     if (settings.dem.contact_law == LinearSpringDashpot::name)
         return check_against_linear_contact(settings, shortest_linear_contact(settings, materials, particles));
-    double const rayleigh = shortest_rayleigh_time(materials, particles);
+    double rayleigh = shortest_rayleigh_time(materials, particles);
+    for (InletSettings const& inlet : settings.inlets)
+        rayleigh =
+            std::min(rayleigh, materials.rayleigh_time(materials.number_of(inlet.material),
+                                                       SizeDistribution(inlet.diameter, inlet.sizes).smallest() / 2));
     double const share = settings.dem.time_step / rayleigh;
     if (share <= rayleigh_share_limit) return;
     throw UserError(fmt::format(

@@ -25,6 +25,7 @@ WallContacts::WallContacts(exec::Execution execution, Materials const& materials
 
 void WallContacts::add_forces(ParticleState& particles, double dt)
 {
+    if (particles.count() == 0) force_.resize(0);  // nobody is left, and no list was built
     WallFinder const find{nearby(), pairs_view(),
                           WallSprings{pairs_.displacement.view().data,
                                       model_.has_rolling_spring() ? pairs_.rolling_spring.view().data : nullptr},

@@ -39,7 +39,8 @@ public:
 
     /// Puts the walls where they are at `time` [s].
     void move_to(double time);
-    double time() const { return time_; }  ///< at which the walls stand [s]
+    double time() const { return time_; }              ///< at which the walls stand [s]
+    double built_time() const { return built_time_; }  ///< at which they stood when the list was built [s]
 
     /// True when a wall has moved so far since the list was built that it may miss a contact: more than skin / 2.
     bool is_stale(double skin) const;
@@ -53,12 +54,15 @@ public:
 
     WallPairs& pairs() { return pairs_; }
     WallPairs const& pairs() const { return pairs_; }
+    std::int32_t plane_count() const { return walls_.plane_count(); }
 
     /// Force of the walls on a particle in the last add_forces [N]; w: number of contacts.
     Quad force_on(std::int64_t particle) const;
 
     /// Its sum over all particles [N].
     Vec3 total_force() const { return total_force_.xyz(); }
+    /// Puts it back, after a restart.
+    void set_total_force(Vec3 const& force) { total_force_.set_xyz(force); }
 
 private:
     NearbyWalls nearby() const { return {walls_.view(), poses_.view().data}; }
@@ -70,7 +74,7 @@ private:
     exec::Execution execution_;
     ContactModel model_;
     WallGeometry const& walls_;
-    double time_ = 0;
+    double time_ = 0, built_time_ = 0;
     bool some_wall_moves_ = false;
     exec::Buffer<WallPose> poses_, built_at_;        ///< of each body, now and when the list was built
     Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();  ///< around all particles and what they reached then [m]

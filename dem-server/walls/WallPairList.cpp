@@ -285,6 +285,7 @@ void WallContacts::carry_springs(std::span<std::int32_t const> order, exec::Buff
 void WallContacts::remember_build(ParticleState const& particles, double skin)
 {
     built_at_ = poses_;
+    built_time_ = time_;
     low_ = Vec3::Constant(std::numeric_limits<double>::infinity());
     high_ = -low_;
     if (!some_wall_moves_) return;

@@ -64,7 +64,7 @@ Totals totals_of(SolidFields const& solid, UniformFluid const& fluid)
 /// What the server's particles have gained since they were at rest [N s].
 std::array<double, 3> final_momentum(ServerProcess const& server)
 {
-    output::SnapshotReader const state(server.result("particles_last.h5"), "particles");
+    output::SnapshotReader const state(server.checkpoints().back(), "checkpoint");
     std::vector<double> const velocity = state.doubles("velocity");  // shape=(n, 4): velocity and inverse mass
     EXPECT_EQ(velocity.size(), 4u * SmallCase::particle_count);
     std::array<double, 3> momentum{};

@@ -5,11 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "BoxMesh.hpp"
 #include "Endpoint.hpp"
@@ -98,6 +100,16 @@ public:
 
     Process& process() { return process_; }
     std::filesystem::path result(std::string const& name) const { return folder_ / "run/" / name; }
+
+    /// Its checkpoints, oldest first.
+    std::vector<std::filesystem::path> checkpoints() const
+    {
+        std::vector<std::filesystem::path> files;
+        for (auto const& entry : std::filesystem::directory_iterator(result("checkpoints")))
+            files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        return files;
+    }
 
     /// The address that it is bound to, once it is.
     std::string endpoint() const
