@@ -132,21 +132,12 @@ class Run:
         if self.restart:
             command += ["--restart", str(self.restart.checkpoint)]
         with self.server_log.open("ab") as log:
-            return spawn(command, stdout=log, stderr=stderr, env=server_environment())
+            return spawn(command, stdout=log, stderr=stderr)
 
     def start_client(self) -> subprocess.Popen[bytes]:
         command = [str(openfoam_client_binary()), "-case", str(self.folder), "-endpoint", self.endpoint.address]
         with self.client_log.open("ab") as log:
             return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder, env=openfoam.environment())
-
-
-def server_environment() -> dict[str, str]:
-    """Threads that wait for each other sleep after a millisecond.
-
-    libgomp's default is to spin for longer than a scheduler's time slice: where another program wants the core, each of
-    the hundred parallel loops of a step then waits for that slice, and a run takes six times as long.
-    """
-    return {"GOMP_SPINCOUNT": "20000", **os.environ}
 
 
 def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: Endpoint) -> int:

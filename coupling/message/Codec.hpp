@@ -14,6 +14,9 @@ transport::Frames encode(Message message);
 /// each array frame has exactly the bytes that its header promises. Fault::version or Fault::protocol.
 Message decode(transport::Frames frames);
 
+/// The same for an envelope out of a mailbox: the fields of a step, all of whose arrays are shared.
+Message decode_posted(transport::Frame const& envelope);
+
 /// The kind of a message, from its first frame alone; KIND_NOT_SET if it cannot be read.
 Kind peek_kind(transport::Frame const& envelope);
 

@@ -2,6 +2,7 @@
 #include "message/Fields.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "message/Arrays.hpp"
 #include "message/Finite.hpp"
@@ -54,7 +55,7 @@ std::string not_finite_text(FieldEntry<Fields> const& entry, Span<double const> 
 }
 
 template <class Fields>
-void check_before_sending(FieldEntry<Fields> const& entry, Span<double const> values, std::size_t cell_count)
+void check_size(FieldEntry<Fields> const& entry, Span<double const> values, std::size_t cell_count)
 {
     std::size_t const size = cell_count * entry.components;
     if (values.size() != size)
@@ -63,9 +64,15 @@ void check_before_sending(FieldEntry<Fields> const& entry, Span<double const> va
                                              std::to_string(cell_count) + " cells, " +
                                              std::to_string(entry.components) + " each, so " + std::to_string(size) +
                                              "); pass the whole field, the peer needs it");
-    if (auto const i = first_not_finite(values))
-        throw CouplingError(
-            Fault::user, not_finite_text(entry, values, *i) + " (the solution has diverged); try a smaller time step");
+}
+
+template <class Fields>
+void copy_checked(FieldEntry<Fields> const& entry, Span<double const> values, transport::Frame& frame, bool is_shared)
+{
+    auto* const to = static_cast<double*>(frame.data());
+    if (is_shared ? stream_finite(values, to) : copy_finite(values, to)) return;
+    throw CouplingError(Fault::user, not_finite_text(entry, values, *first_not_finite(values)) +
+                                         " (the solution has diverged); try a smaller time step");
 }
 
 }  // namespace
@@ -90,9 +97,12 @@ void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields c
     for (auto const& entry : choice)
     {
         Span<double const> const values = fields.*entry.values;
-        check_before_sending(entry, values, cell_count);
-        append_array(message, entry.name, entry.components, values, memory.make(values.size() * sizeof(double)));
-        if (auto const offset = memory.offset_of(message.arrays.back())) mark_shared(message, *offset);
+        check_size(entry, values, cell_count);
+        transport::Frame frame = memory.make(values.size() * sizeof(double));
+        auto const offset = memory.offset_of(frame);
+        copy_checked(entry, values, frame, offset.has_value());
+        append_array(message, entry.name, entry.components, std::move(frame));
+        if (offset) mark_shared(message, *offset);
     }
 }
 

@@ -114,8 +114,8 @@ void Client::Impl::send_mesh(MeshView const& mesh)
 
     session::Letter const letter = receive("MeshAccepted");
     session.read([&] { message::check_mesh_accepted(letter.message, mesh.cell_count); });
-    shared.use_if_confirmed(letter.message, terms.memory);
-    session.read([&] { shared.map_announced(letter.message); });
+    session.use(shared.use_if_confirmed(letter.message, terms.memory));
+    session.use(session.read([&] { return shared.map_announced(letter.message); }));
     take_solid();
 }
 

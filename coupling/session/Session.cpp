@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/Session.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 #include <utility>
@@ -19,6 +20,8 @@ using message::Message;
 
 /// Last words get so long to leave.
 auto constexpr linger = 1s;
+/// Whoever waits for the bell of a mailbox looks this often whether something came through the channel.
+auto constexpr look_interval = 20ms;
 
 }  // namespace
 
@@ -99,14 +102,18 @@ void Session::send(Message message)
         message.envelope.set_step(step_);
     }
     std::size_t const array_bytes = message::array_bytes(message);
+    bool const may_be_posted = outbox_ && message::may_be_posted(message);
     transport::Frames frames = message::encode(std::move(message));
     bytes_ += static_cast<double>(frames.front().size() + array_bytes);
-    channel_->send(std::move(frames));
+    if (may_be_posted && frames.front().size() <= transport::max_posted_bytes)
+        outbox_->post(frames.front());
+    else
+        channel_->send(std::move(frames));
 }
 
 Letter Session::receive(std::string const& awaited, Time deadline, double patience)
 {
-    Delivery delivery = inbox_.wait(deadline);
+    Delivery delivery = next_letter(deadline);
     if (delivery.ending) fail_by_ending(*delivery.ending, awaited);
     if (!delivery.letter) fail_by_delay(awaited, patience);
 
@@ -115,6 +122,32 @@ Letter Session::receive(std::string const& awaited, Time deadline, double patien
     bytes_ += static_cast<double>(message.envelope.ByteSizeLong() + message::array_bytes(message));
     advance(*event_of(message.kind()));
     return std::move(*delivery.letter);
+}
+
+Delivery Session::next_letter(Time deadline)
+{
+    if (!postbox_) return inbox_.wait(deadline);
+    while (true)
+    {
+        if (auto letter = take_post()) return {std::move(letter), std::nullopt};
+        Time const now = transport::Clock::now();
+        if (now >= deadline || inbox_.peek() || inbox_.has_ended()) return inbox_.wait(now);
+        postbox_->wait(std::min(deadline, now + look_interval));
+    }
+}
+
+std::optional<Letter> Session::take_post()
+{
+    try
+    {
+        auto const post = postbox_->take();
+        if (!post) return std::nullopt;
+        return Letter{message::decode_posted(post->envelope), std::nullopt, post->posted};
+    }
+    catch (CouplingError const& error)
+    {
+        return Letter{{}, error, transport::Clock::now()};
+    }
 }
 
 void Session::look_for_trouble(std::string const& awaited)

@@ -7,11 +7,13 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "message/Control.hpp"
 #include "session/Inbox.hpp"
 #include "session/States.hpp"
 #include "transport/Channel.hpp"
+#include "transport/Mailbox.hpp"
 
 namespace gimdem::coupling::session
 {
@@ -52,6 +54,10 @@ public:
 
     void send(message::Message message);
 
+    /// From now on messages that may be posted go through these; null: they do not.
+    void use(std::unique_ptr<transport::Outbox> outbox) { outbox_ = std::move(outbox); }
+    void use(std::unique_ptr<transport::Postbox> postbox) { postbox_ = std::move(postbox); }
+
     /// The next message, checked against the state table. awaited: what we wait for, in words.
     Letter receive(std::string const& awaited, Time deadline, double patience);
     /// False if the peer has not appeared by then.
@@ -79,6 +85,8 @@ public:
 
 private:
     bool is_over() const;
+    Delivery next_letter(Time deadline);
+    std::optional<Letter> take_post();
     void fall(std::string const& why);
     void tell(Fault fault, std::string const& reason);
     void check_letter(Letter const& letter, std::string const& awaited);
@@ -112,6 +120,8 @@ private:
     message::Heartbeat peer_heartbeat_;  ///< the last one
 
     Inbox inbox_;
+    std::unique_ptr<transport::Outbox> outbox_;    ///< null: everything goes through the channel
+    std::unique_ptr<transport::Postbox> postbox_;  ///< null: everything comes through the channel
     std::unique_ptr<transport::Channel> channel_;  ///< last: its thread uses the rest
 };
 
