@@ -23,6 +23,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
     app.add_option("--until", options.until, "simulated time [s]")->check(CLI::PositiveNumber);
     app.add_option("--threads", options.threads, "threads for the particles, 0: all cores")
         ->check(CLI::NonNegativeNumber);
+    app.add_option("--restart", options.restart, "checkpoint to go on from");
     try
     {
         app.parse(argc, argv);

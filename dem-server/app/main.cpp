@@ -7,6 +7,7 @@
 #include <exception>
 #include <iostream>
 
+#include "app/DemRun.hpp"
 #include "app/Describe.hpp"
 #include "app/Options.hpp"
 #include "app/Run.hpp"
@@ -55,7 +56,10 @@ int main(int argc, char** argv)
         }
         std::signal(SIGINT, on_interrupt);
         std::signal(SIGTERM, on_interrupt);
-        gimdem::app::run(settings, options->run_folder);
+        if (settings.run.client == "none")
+            gimdem::app::run_alone(settings, options->run_folder, options->restart);
+        else
+            gimdem::app::run(settings, options->run_folder, options->restart);
         return 0;
     }
     catch (std::exception const& error)

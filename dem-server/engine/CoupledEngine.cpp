@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/InletFlow.hpp"
 #include "exec/Reduce.hpp"
 
 namespace gimdem
@@ -67,6 +68,7 @@ StepReport CoupledEngine::map_initial_state()
     fluid.velocity = still;
     forces_.load(fluid, mesh_.cell_count());
     mapper_.locate(system_.particles(), wall_faces_);
+    if (!mapper_.left().empty()) Mapper::refuse_outside(system_.particles(), mapper_.left().front().particle);
     mapper_.compute_weights(system_.particles());
     mapper_.sum_into_cells(system_.particles(), system_.impulses(), sums_);
     compute_void_fraction(report);
@@ -84,7 +86,9 @@ StepReport CoupledEngine::advance(coupling::Step const& step, coupling::FluidFie
     auto const start = std::chrono::steady_clock::now();
     report.dem_steps = std::max<std::int64_t>(1, std::llround(std::ceil(step.dt / settings_.dem.time_step - 1e-9)));
     forces_.load(fluid, mesh_.cell_count());
+    insert_due(step.time);
     system_.begin_coupling_step(&on_particles_);
+    system_.let_walls_move(true);
     report.pressure_force = constant(system_.steady_fluid_force());
     for (std::int64_t k = 0; k < report.dem_steps; ++k)
         system_.step(step.dt / static_cast<double>(report.dem_steps));
@@ -92,8 +96,38 @@ StepReport CoupledEngine::advance(coupling::Step const& step, coupling::FluidFie
 
     auto const mapping_start = std::chrono::steady_clock::now();
     map_particles(step.dt, fluid, report);
+    report.removed = remove_leavers();
     report.timings.mapping = seconds_since(mapping_start);
     return report;
+}
+
+void CoupledEngine::insert_due(double time)
+{
+    if (inlets_ == nullptr || insert_from(*inlets_, time, system_) == 0) return;
+    mapper_.locate(system_.particles(), wall_faces_);
+    if (!mapper_.left().empty()) Mapper::refuse_outside(system_.particles(), mapper_.left().front().particle);
+}
+
+// What they received in their last step is on the mesh by now, so that nothing of the balance is lost, theory.md
+// (D.67).
+std::int64_t CoupledEngine::remove_leavers()
+{
+    if (mapper_.left().empty()) return 0;
+    auto const& patches = mesh_.topology().patches;
+    std::vector<std::string> causes;
+    for (coupling::Patch const& patch : patches)
+        causes.push_back("through " + patch.name);
+    std::vector<std::int32_t> cause(static_cast<std::size_t>(system_.particles().count()), -1);
+    for (Mapper::Leaver const& leaver : mapper_.left())
+        for (std::size_t k = 0; k < patches.size(); ++k)
+        {
+            if (leaver.face < patches[k].start_face || leaver.face >= patches[k].start_face + patches[k].face_count)
+                continue;
+            if (patches[k].kind != coupling::PatchKind::open)
+                Mapper::refuse_outside(system_.particles(), leaver.particle);
+            cause[static_cast<std::size_t>(leaver.particle)] = static_cast<std::int32_t>(k);
+        }
+    return system_.remove(cause, causes);
 }
 
 coupling::SolidFields CoupledEngine::fields() const

@@ -11,6 +11,7 @@
 #include "particles/Materials.hpp"
 #include "particles/ParticleState.hpp"
 #include "walls/WallGeometry.hpp"
+#include "walls/WallTouches.hpp"
 
 namespace gimdem
 {
@@ -18,27 +19,34 @@ namespace gimdem
 /// Particle-plane pairs that touch or may soon touch, by rising particle, then plane.
 struct WallPairs
 {
-    exec::Buffer<std::int32_t> offsets;  ///< shape=(n_particles + 1,)
-    exec::Buffer<std::int32_t> plane;    ///< shape=(n_pairs,)
-    exec::Buffer<std::uint8_t> whole;    ///< shape=(n_pairs,): 1 where the plane's rim is out of reach
-    exec::Buffer<Quad> displacement;     ///< shape=(n_pairs,), tangential spring [m]
-    exec::Buffer<Quad> rolling_spring;   ///< shape=(n_pairs,), torque [N m]; empty where no law has such a spring
+    exec::Buffer<std::int32_t> offsets;   ///< shape=(n_particles + 1,)
+    exec::Buffer<std::int32_t> plane;     ///< shape=(n_pairs,)
+    exec::Buffer<std::int32_t> particle;  ///< shape=(n_pairs,)
+    exec::Buffer<std::int32_t> row;       ///< shape=(n_pairs,): of the two materials in the table of laws
+    exec::Buffer<std::uint8_t> whole;     ///< shape=(n_pairs,): 1 where the plane's rim is out of reach
+    exec::Buffer<std::uint8_t> alone;     ///< shape=(n_pairs,): 1 where no other pair of the particle has a say
+    exec::Buffer<Quad> displacement;      ///< shape=(n_pairs,), tangential spring [m]
+    exec::Buffer<Quad> rolling_spring;    ///< shape=(n_pairs,), torque [N m]; empty where no law has such a spring
 };
+
+struct WallPairsView;
 
 class WallContacts
 {
 public:
-    WallContacts(exec::Execution execution, Materials const& materials, int wall_material, WallGeometry const& walls)
-        : execution_(execution),
-          model_(materials),
-          material_count_(materials.count()),
-          wall_material_(wall_material),
-          walls_(walls)
-    {
-    }
+    /// `wall_material`: of walls that name none.
+    WallContacts(exec::Execution execution, Materials const& materials, int wall_material, WallGeometry const& walls);
+
+    /// Puts the walls where they are at `time` [s].
+    void move_to(double time);
+    double time() const { return time_; }              ///< at which the walls stand [s]
+    double built_time() const { return built_time_; }  ///< at which they stood when the list was built [s]
+
+    /// True when a wall has moved so far since the list was built that it may miss a contact: more than skin / 2.
+    bool is_stale(double skin) const;
 
     /// Lists the pairs closer than radius + skin [m]. `order` is the permutation since the last list (empty: none):
-    /// springs move along. Throws UserError where one particle is near more planes than a kernel can hold.
+    /// springs move along.
     void build(ParticleState const& particles, double skin, std::span<std::int32_t const> order);
 
     /// Adds the walls' forces and torques; advances the tangential springs by dt [s].
@@ -46,27 +54,35 @@ public:
 
     WallPairs& pairs() { return pairs_; }
     WallPairs const& pairs() const { return pairs_; }
+    std::int32_t plane_count() const { return walls_.plane_count(); }
 
-    /// Force of the walls on each particle in the last add_forces [N]; w: number of contacts.
-    exec::Buffer<Quad> const& force_on_particles() const { return wall_force_; }
+    /// Force of the walls on a particle in the last add_forces [N]; w: number of contacts.
+    Quad force_on(std::int64_t particle) const;
 
     /// Its sum over all particles [N].
     Vec3 total_force() const { return total_force_.xyz(); }
-
-    static constexpr int most_planes = 16;  ///< near one particle
+    /// Puts it back, after a restart.
+    void set_total_force(Vec3 const& force) { total_force_.set_xyz(force); }
 
 private:
+    NearbyWalls nearby() const { return {walls_.view(), poses_.view().data}; }
+    WallPairsView pairs_view();
+    void remember_build(ParticleState const& particles, double skin);
     void carry_springs(std::span<std::int32_t const> order, exec::Buffer<Quad> const& old_spring,
                        exec::Buffer<Quad>& spring);
 
     exec::Execution execution_;
     ContactModel model_;
-    std::int32_t material_count_;
-    std::int32_t wall_material_;
     WallGeometry const& walls_;
+    double time_ = 0, built_time_ = 0;
+    bool some_wall_moves_ = false;
+    exec::Buffer<WallPose> poses_, built_at_;        ///< of each body, now and when the list was built
+    Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();  ///< around all particles and what they reached then [m]
+    exec::Buffer<std::int32_t> first_pair_;          ///< of each body: row of its material in the table of pairs
     WallPairs pairs_, old_;
     exec::Buffer<std::uint64_t> seen_;  ///< what the first look at the walls found, for the second
-    exec::Buffer<Quad> wall_force_;
+    exec::Buffer<Touch> touches_;       ///< room for the touches of particles with many pairs
+    exec::Buffer<Quad> force_;          ///< of each pair [N]; w: 1 where it touches, or where it may hold a spring
     Quad total_force_{0, 0, 0, 0};
 };
 

@@ -25,7 +25,7 @@ gimdem::Quad wall_force(PolyMesh const& mesh, WallGeometry const& walls, Vec3 co
     gimdem::WallContacts contacts(serial, materials, 0, walls);
     contacts.build(particles, 0.1 * radius, {});
     contacts.add_forces(particles, 0);
-    return contacts.force_on_particles()[0];
+    return contacts.force_on(0);
 }
 
 double hertz(double radius, double overlap)
