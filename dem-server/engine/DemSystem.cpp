@@ -24,8 +24,6 @@ DemSystem::DemSystem(Case const& settings, exec::Execution execution, Materials 
     for (std::int64_t const id : particles_.id.host())
         next_id_ = std::max(next_id_, id + 1);
     neighbors_.carries_rolling = particle_contacts_.has_rolling_springs();
-    impulses_.resize(particles_.count());
-    impulses_.fill({});
 }
 
 void DemSystem::prepare()
@@ -37,6 +35,7 @@ void DemSystem::prepare()
 void DemSystem::begin_coupling_step(FluidOnParticles const* fluid)
 {
     fluid_ = fluid;
+    impulses_.resize(fluid == nullptr ? 0 : particles_.count());
     impulses_.fill({});
     wall_impulse_.setZero();
     update_fluid_loads();
@@ -92,7 +91,7 @@ void DemSystem::update_neighbors()
     if (!search_.is_stale(particles_, neighbors_) && !wall_contacts_.is_stale(search_.skin())) return;
     auto const order = search_.build(particles_, neighbors_);
     wall_contacts_.build(particles_, search_.skin(), order);
-    permute(execution_, impulses_, order);
+    if (impulses_.size() > 0) permute(execution_, impulses_, order);
     if (on_permutation_) on_permutation_(order);
     ++rebuilds_;
 }

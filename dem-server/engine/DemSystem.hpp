@@ -91,6 +91,7 @@ public:
     NeighborList const& neighbors() const { return neighbors_; }
     WallContacts& walls() { return wall_contacts_; }
     WallContacts const& walls() const { return wall_contacts_; }
+    /// Of the coupling step so far; empty without a fluid.
     exec::Buffer<Impulse> const& impulses() const { return impulses_; }
     /// Time integral of the walls' force on all particles over the coupling step so far [N s].
     Vec3 wall_impulse() const { return wall_impulse_; }
