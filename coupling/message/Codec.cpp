@@ -125,16 +125,21 @@ void check(Message& message)
 
 }  // namespace
 
-transport::Frames encode(Message message)
+transport::Frame encode_envelope(Message& message)
 {
     message.envelope.set_protocol_major(protocol_major);
     message.envelope.set_protocol_minor(protocol_minor);
     check_before_sending(message);
+    transport::Frame frame(message.envelope.ByteSizeLong());
+    message.envelope.SerializeToArray(frame.data(), static_cast<int>(frame.size()));
+    return frame;
+}
 
+transport::Frames encode(Message message)
+{
     transport::Frames frames;
     frames.reserve(1 + message.arrays.size());
-    frames.emplace_back(message.envelope.ByteSizeLong());
-    message.envelope.SerializeToArray(frames.front().data(), static_cast<int>(frames.front().size()));
+    frames.push_back(encode_envelope(message));
     for (std::size_t k = 0; k < message.arrays.size(); ++k)
     {
         bool const shared = message.envelope.arrays(static_cast<int>(k)).shared();
@@ -167,13 +172,14 @@ Message decode_posted(transport::Frame const& envelope)
 {
     Message message;
     read_envelope(envelope, message);
+    check_version(message.envelope);
+    if (!may_be_posted(message))
+        refuse(describe(message) + " in a mailbox (only fields in shared memory may be there)");
     auto const count = static_cast<std::size_t>(message.envelope.arrays_size());
     if (count >= transport::max_frames)
         refuse("a message of more than " + std::to_string(transport::max_frames) + " frames");
     message.arrays.resize(count);
     check(message);
-    if (!may_be_posted(message))
-        refuse(describe(message) + " in a mailbox (only fields in shared memory may be there)");
     return message;
 }
 

@@ -7,7 +7,10 @@
 namespace gimdem::coupling::message
 {
 
-/// Stamps our protocol version and writes the envelope in front of the arrays.
+/// Stamps our protocol version and writes the envelope. Fault::user if it or an array is too large.
+transport::Frame encode_envelope(Message& message);
+
+/// The same in front of the arrays.
 transport::Frames encode(Message message);
 
 /// Reads the envelope and checks everything that does not depend on the state of the session: version, kind, and that

@@ -47,11 +47,9 @@ FieldChoice<Fields> choose(std::vector<std::string> const& names, Table const& t
 }
 
 /// "velocity has nan in cell 12".
-template <class Fields>
-std::string not_finite_text(FieldEntry<Fields> const& entry, Span<double const> values, std::size_t i)
+std::string not_finite_text(std::string const& name, unsigned components, Span<double const> values, std::size_t i)
 {
-    return "field \"" + std::string(entry.name) + "\" has " + number_text(values[i]) + " in cell " +
-           std::to_string(i / entry.components);
+    return "field \"" + name + "\" has " + number_text(values[i]) + " in cell " + std::to_string(i / components);
 }
 
 template <class Fields>
@@ -64,15 +62,6 @@ void check_size(FieldEntry<Fields> const& entry, Span<double const> values, std:
                                              std::to_string(cell_count) + " cells, " +
                                              std::to_string(entry.components) + " each, so " + std::to_string(size) +
                                              "); pass the whole field, the peer needs it");
-}
-
-template <class Fields>
-void copy_checked(FieldEntry<Fields> const& entry, Span<double const> values, transport::Frame& frame, bool is_shared)
-{
-    auto* const to = static_cast<double*>(frame.data());
-    if (is_shared ? stream_finite(values, to) : copy_finite(values, to)) return;
-    throw CouplingError(Fault::user, not_finite_text(entry, values, *first_not_finite(values)) +
-                                         " (the solution has diverged); try a smaller time step");
 }
 
 }  // namespace
@@ -90,8 +79,8 @@ FieldChoice<SolidFields> choose_solid_fields(std::vector<std::string> const& nam
 }
 
 template <class Fields>
-void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
-                   transport::SendMemory const& memory)
+void lay_out_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
+                    transport::SendMemory const& memory)
 {
     memory.begin_message();
     for (auto const& entry : choice)
@@ -100,10 +89,24 @@ void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields c
         check_size(entry, values, cell_count);
         transport::Frame frame = memory.make(values.size() * sizeof(double));
         auto const offset = memory.offset_of(frame);
-        copy_checked(entry, values, frame, offset.has_value());
+        message.unfilled.push_back({message.arrays.size(), values, offset.has_value()});
         append_array(message, entry.name, entry.components, std::move(frame));
         if (offset) mark_shared(message, *offset);
     }
+}
+
+void fill(Message& message)
+{
+    for (Unfilled const& field : message.unfilled)
+    {
+        auto* const to = static_cast<double*>(message.arrays[field.array].data());
+        if (field.is_shared ? stream_finite(field.values, to) : copy_finite(field.values, to)) continue;
+        v1::ArrayHeader const& header = message.envelope.arrays(static_cast<int>(field.array));
+        std::size_t const i = *first_not_finite(field.values);
+        throw CouplingError(Fault::user, not_finite_text(header.name(), header.components(), field.values, i) +
+                                             " (the solution has diverged); try a smaller time step");
+    }
+    message.unfilled.clear();
 }
 
 template <class Fields>
@@ -123,17 +126,17 @@ Fields view_fields(Message const& message, FieldChoice<Fields> const& choice, st
     {
         Span<double const> const values = view_array<double>(message, entry.name, entry.components, cell_count);
         if (auto const i = first_not_finite(values))
-            refuse(describe(message) + ": " + not_finite_text(entry, values, *i));
+            refuse(describe(message) + ": " + not_finite_text(entry.name, entry.components, values, *i));
         fields.*entry.values = values;
     }
     check_array_count(message, choice.size());
     return fields;
 }
 
-template void append_fields(Message&, FieldChoice<FluidFields> const&, FluidFields const&, std::size_t,
-                            transport::SendMemory const&);
-template void append_fields(Message&, FieldChoice<SolidFields> const&, SolidFields const&, std::size_t,
-                            transport::SendMemory const&);
+template void lay_out_fields(Message&, FieldChoice<FluidFields> const&, FluidFields const&, std::size_t,
+                             transport::SendMemory const&);
+template void lay_out_fields(Message&, FieldChoice<SolidFields> const&, SolidFields const&, std::size_t,
+                             transport::SendMemory const&);
 template std::size_t shared_bytes(FieldChoice<FluidFields> const&, std::size_t);
 template std::size_t shared_bytes(FieldChoice<SolidFields> const&, std::size_t);
 template FluidFields view_fields(Message const&, FieldChoice<FluidFields> const&, std::size_t);

@@ -165,7 +165,8 @@ void Server::Impl::send_solid(SolidFields const& fields, Timings const& timings)
 {
     double const busy = busy_before + seconds_between(handed_out, Clock::now());
     session.require(Event::send_solid);
-    message::Message solid = message::pack(message::SolidState{fields, timings, busy, stop_reason()}, terms);
+    message::Message solid = message::lay_out(message::SolidState{fields, timings, busy, stop_reason()}, terms);
+    session.prepare(solid);
     session.look_for_trouble("the solid of its program");
     session.advance(Event::send_solid);
     session.send(std::move(solid));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "message/Codec.hpp"
+#include "message/Fields.hpp"
 #include "message/SharedArrays.hpp"
 
 namespace gimdem::coupling::session
@@ -94,21 +95,48 @@ void Session::choose_session_number()
     while (session_number_ == 0);
 }
 
+void Session::prepare(Message& message)
+{
+    stamp(message);
+    is_announced_ = false;
+    if (!outbox_ || !message::may_be_posted(message)) return message::fill(message);
+    transport::Frame const envelope = message::encode_envelope(message);
+    if (envelope.size() > transport::max_posted_bytes) return message::fill(message);
+
+    outbox_->announce(envelope);
+    try
+    {
+        message::fill(message);
+    }
+    catch (CouplingError const&)
+    {
+        outbox_->abandon();
+        throw;
+    }
+    is_announced_ = true;
+}
+
 void Session::send(Message message)
 {
-    message.envelope.set_session(session_number_);
+    stamp(message);
+    bytes_ += static_cast<double>(message::array_bytes(message));
+    if (std::exchange(is_announced_, false) && message::may_be_posted(message))
     {
-        std::lock_guard<std::mutex> const lock(mutex_);
-        message.envelope.set_step(step_);
+        bytes_ += static_cast<double>(message.envelope.ByteSizeLong());
+        return outbox_->finish();
     }
-    std::size_t const array_bytes = message::array_bytes(message);
-    bool const may_be_posted = outbox_ && message::may_be_posted(message);
     transport::Frames frames = message::encode(std::move(message));
-    bytes_ += static_cast<double>(frames.front().size() + array_bytes);
-    if (may_be_posted && frames.front().size() <= transport::max_posted_bytes)
-        outbox_->post(frames.front());
-    else
-        channel_->send(std::move(frames));
+    bytes_ += static_cast<double>(frames.front().size());
+    channel_->send(std::move(frames));
+}
+
+/// Session and step, unless the message knows its step.
+void Session::stamp(Message& message) const
+{
+    message.envelope.set_session(session_number_);
+    if (message.envelope.step() != 0) return;
+    std::lock_guard<std::mutex> const lock(mutex_);
+    message.envelope.set_step(step_);
 }
 
 Letter Session::receive(std::string const& awaited, Time deadline, double patience)
@@ -140,9 +168,14 @@ std::optional<Letter> Session::take_post()
 {
     try
     {
-        auto const post = postbox_->take();
-        if (!post) return std::nullopt;
-        return Letter{message::decode_posted(post->envelope), std::nullopt, post->posted};
+        if (auto const envelope = postbox_->look()) incoming_ = message::decode_posted(*envelope);
+        if (!incoming_) return std::nullopt;
+        auto const packing = postbox_->packing();
+        if (packing == transport::Postbox::Packing::going_on) return std::nullopt;
+        Message message = std::move(*incoming_);
+        incoming_.reset();
+        if (packing == transport::Postbox::Packing::abandoned) return std::nullopt;
+        return Letter{std::move(message), std::nullopt, postbox_->posted()};
     }
     catch (CouplingError const& error)
     {

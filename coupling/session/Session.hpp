@@ -52,6 +52,9 @@ public:
     /// Server: the session number that every later message carries.
     void choose_session_number();
 
+    /// Fills the fields of a step, which send() then sends; where it can, the peer reads the envelope meanwhile.
+    /// Fault::user if a number cannot be sent: nothing has been sent, and nothing happens.
+    void prepare(message::Message& message);
     void send(message::Message message);
 
     /// From now on messages that may be posted go through these; null: they do not.
@@ -87,6 +90,7 @@ private:
     bool is_over() const;
     Delivery next_letter(Time deadline);
     std::optional<Letter> take_post();
+    void stamp(message::Message& message) const;
     void fall(std::string const& why);
     void tell(Fault fault, std::string const& reason);
     void check_letter(Letter const& letter, std::string const& awaited);
@@ -122,6 +126,8 @@ private:
     Inbox inbox_;
     std::unique_ptr<transport::Outbox> outbox_;    ///< null: everything goes through the channel
     std::unique_ptr<transport::Postbox> postbox_;  ///< null: everything comes through the channel
+    bool is_announced_ = false;                    ///< prepare() told the peer
+    std::optional<message::Message> incoming_;     ///< announced by the peer, perhaps not complete yet
     std::unique_ptr<transport::Channel> channel_;  ///< last: its thread uses the rest
 };
 

@@ -19,9 +19,11 @@ namespace gimdem::coupling::transport
 
 struct MailboxPage
 {
-    std::atomic<std::uint32_t> bell;  ///< how often it has rung
+    std::atomic<std::uint32_t> bell;  ///< how often it has rung: odd while a message is packed
     std::uint32_t bytes;              ///< of the envelope
     std::int64_t posted;              ///< steady clock [ns]
+    std::uint32_t complete;           ///< 0: the last message was abandoned
+    std::uint32_t unused;
     unsigned char envelope[max_posted_bytes];
 };
 static_assert(sizeof(MailboxPage) == mailbox_bytes && std::atomic<std::uint32_t>::is_always_lock_free);
@@ -33,6 +35,9 @@ namespace
 {
     throw CouplingError(Fault::protocol, problem);
 }
+
+/// Longer than it takes to pack the fields of a hundred thousand cells.
+auto constexpr patience = std::chrono::microseconds(500);
 
 /// Where the mailbox of a segment is. A segment's size is a multiple of a cache line, or it is not one of ours.
 unsigned char* place_in(Mapping const& memory)
@@ -49,13 +54,30 @@ Outbox::Outbox(std::shared_ptr<OwnSegment const> segment)
 {
 }
 
-void Outbox::post(Frame const& envelope)
+void Outbox::ring()
 {
-    page_->bytes = static_cast<std::uint32_t>(envelope.size());
-    page_->posted = std::chrono::nanoseconds(Clock::now().time_since_epoch()).count();
-    std::memcpy(page_->envelope, envelope.data(), envelope.size());
     page_->bell.fetch_add(1, std::memory_order_release);
     ::syscall(SYS_futex, &page_->bell, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
+}
+
+void Outbox::announce(Frame const& envelope)
+{
+    page_->bytes = static_cast<std::uint32_t>(envelope.size());
+    std::memcpy(page_->envelope, envelope.data(), envelope.size());
+    ring();
+}
+
+void Outbox::finish()
+{
+    page_->posted = std::chrono::nanoseconds(Clock::now().time_since_epoch()).count();
+    page_->complete = 1;
+    ring();
+}
+
+void Outbox::abandon()
+{
+    page_->complete = 0;
+    ring();
 }
 
 Postbox::Postbox(std::shared_ptr<Mapping const> segment)
@@ -63,20 +85,40 @@ Postbox::Postbox(std::shared_ptr<Mapping const> segment)
 {
 }
 
-std::optional<Post> Postbox::take()
+std::uint32_t Postbox::bell()
 {
-    std::uint32_t const rung = page_->bell.load(std::memory_order_acquire);
-    if (rung == seen_) return std::nullopt;
+    return seen_ = page_->bell.load(std::memory_order_acquire);
+}
+
+std::optional<Frame> Postbox::look()
+{
+    std::uint32_t const rung = bell();
+    bool const is_packed = rung % 2 == 0;
+    std::uint32_t const announcement = is_packed ? rung - 1 : rung;
+    if (rung == 0 || announcement == announced_ || (is_packed && page_->complete == 0)) return std::nullopt;
+
     std::size_t const bytes = page_->bytes;
-    if (rung - seen_ != 1) refuse("a mailbox whose bell rang more than once for one message");
     if (bytes > max_posted_bytes)
         refuse("an envelope of " + std::to_string(bytes) + " bytes in a mailbox of " +
                std::to_string(max_posted_bytes));
-    seen_ = rung;
+    Frame envelope(page_->envelope, bytes);
+    std::atomic_thread_fence(std::memory_order_acquire);
+    if (bell() - announcement > 1) return std::nullopt;  // abandoned, and the next one written over it
+    announced_ = announcement;
+    return envelope;
+}
 
-    Post post{Frame(page_->envelope, bytes), Time(std::chrono::nanoseconds(page_->posted))};
-    last_ = post.posted = std::clamp(post.posted, last_, Clock::now());
-    return post;
+Postbox::Packing Postbox::packing()
+{
+    for (Time const until = Clock::now() + patience; bell() == announced_;)
+        if (Clock::now() > until) return Packing::going_on;
+    return seen_ == announced_ + 1 && page_->complete != 0 ? Packing::complete : Packing::abandoned;
+}
+
+Time Postbox::posted()
+{
+    Time const told(std::chrono::nanoseconds(page_->posted));
+    return last_ = std::clamp(told, last_, Clock::now());
 }
 
 void Postbox::wait(Time until) const
