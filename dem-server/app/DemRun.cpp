@@ -130,6 +130,7 @@ void run_alone(Case const& settings, std::filesystem::path const& folder,
     check_overlaps(exec::make_execution(settings.dem.backend, settings.dem.threads), particles,
                    Domain::of(settings.domain));
     DomainBounds(settings.domain).check_start(particles);
+    heed_interrupts();
     DemRun alone(settings, folder, materials, std::move(particles));
     if (restart) alone.restart(*restart);
     alone.run();

@@ -233,6 +233,7 @@ void run(Case const& settings, std::filesystem::path const& folder, std::optiona
     try
     {
         coupling::ClientInfo const client = server.wait_for_client(terms_of(settings));
+        heed_interrupts();
         fmt::print(stderr, "gimdem-server: {} connected\n", client.name);
         CoupledRun coupled(settings, folder, server, client, std::move(particles), materials);
         coupled.start(restart);

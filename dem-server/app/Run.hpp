@@ -15,6 +15,8 @@ namespace gimdem::app
 void run(Case const& settings, std::filesystem::path const& folder,
          std::optional<std::filesystem::path> const& restart);
 
+/// From now on Ctrl-C asks for an orderly end; before, as while waiting for a client, it ends the process at once.
+void heed_interrupts();
 /// True once the user asked for the end (Ctrl-C).
 bool interrupted();
 

@@ -35,6 +35,12 @@ void start_with_short_waits(char** argv)
 
 }  // namespace
 
+void gimdem::app::heed_interrupts()
+{
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+}
+
 bool gimdem::app::interrupted()
 {
     return interrupt_requested != 0;
@@ -54,8 +60,6 @@ int main(int argc, char** argv)
             std::cout << gimdem::app::describe(settings) << '\n';
             return 0;
         }
-        std::signal(SIGINT, on_interrupt);
-        std::signal(SIGTERM, on_interrupt);
         if (settings.run.client == "none")
             gimdem::app::run_alone(settings, options->run_folder, options->restart);
         else

@@ -158,6 +158,13 @@ TEST_P(Loss, OfAClientThatFailsTellsTheServerItsReason)
     server.expect_end(1, "ended the run: the pressure solver diverged");
 }
 
+TEST(LossAlone, OfPatienceWithoutAClientEndsTheServerAtOnce)
+{
+    ServerProcess server(unused_ipc_endpoint());
+    server.process().signal(SIGINT);  // Ctrl-C
+    EXPECT_EQ(server.process().wait(soon), 128 + SIGINT) << "it would wait for a client for longer";
+}
+
 TEST(LossAlone, OfNoClientAtAllEndsTheServer)
 {
     SmallCase settings;
