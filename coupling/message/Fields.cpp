@@ -52,6 +52,13 @@ std::string not_finite_text(std::string const& name, unsigned components, Span<d
     return "field \"" + name + "\" has " + number_text(values[i]) + " in cell " + std::to_string(i / components);
 }
 
+bool is_known_finite(Message const& message, Span<double const> values)
+{
+    auto const end = message.arrays.begin() + static_cast<std::ptrdiff_t>(message.finite);
+    return std::any_of(message.arrays.begin(), end,
+                       [&](transport::Frame const& frame) { return frame.data() == values.data(); });
+}
+
 template <class Fields>
 void check_size(FieldEntry<Fields> const& entry, Span<double const> values, std::size_t cell_count)
 {
@@ -95,18 +102,33 @@ void lay_out_fields(Message& message, FieldChoice<Fields> const& choice, Fields 
     }
 }
 
-void fill(Message& message)
+void fill(Message& message, std::function<void(std::size_t)> const& filled)
 {
     for (Unfilled const& field : message.unfilled)
     {
         auto* const to = static_cast<double*>(message.arrays[field.array].data());
-        if (field.is_shared ? stream_finite(field.values, to) : copy_finite(field.values, to)) continue;
+        if (field.is_shared ? stream_finite(field.values, to) : copy_finite(field.values, to))
+        {
+            if (filled) filled(field.array + 1);
+            continue;
+        }
         v1::ArrayHeader const& header = message.envelope.arrays(static_cast<int>(field.array));
         std::size_t const i = *first_not_finite(field.values);
         throw CouplingError(Fault::user, not_finite_text(header.name(), header.components(), field.values, i) +
                                              " (the solution has diverged); try a smaller time step");
     }
     message.unfilled.clear();
+}
+
+void look_through(Message& message, std::size_t count)
+{
+    for (; message.finite < std::min(count, message.arrays.size()); ++message.finite)
+    {
+        std::size_t const k = message.finite;
+        transport::Frame const& frame = message.arrays[k];
+        bool const is_real = message.envelope.arrays(static_cast<int>(k)).type() == v1::ELEMENT_TYPE_F64;
+        if (is_real && !all_finite({static_cast<double const*>(frame.data()), frame.size() / sizeof(double)})) return;
+    }
 }
 
 template <class Fields>
@@ -125,7 +147,7 @@ Fields view_fields(Message const& message, FieldChoice<Fields> const& choice, st
     for (auto const& entry : choice)
     {
         Span<double const> const values = view_array<double>(message, entry.name, entry.components, cell_count);
-        if (auto const i = first_not_finite(values))
+        if (auto const i = is_known_finite(message, values) ? std::nullopt : first_not_finite(values))
             refuse(describe(message) + ": " + not_finite_text(entry.name, entry.components, values, *i));
         fields.*entry.values = values;
     }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -50,8 +51,12 @@ template <class Fields>
 void lay_out_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
                     transport::SendMemory const& memory);
 
-/// Copies what is unfilled. Fault::user for a NaN or infinity.
-void fill(Message& message);
+/// Copies what is unfilled; calls filled(n) when n arrays of the message are. Fault::user for a NaN or infinity.
+void fill(Message& message, std::function<void(std::size_t)> const& filled = {});
+
+/// Looks for NaN and infinity in the first `count` arrays, as far as that was not done; tells in message.finite how far
+/// there are none.
+void look_through(Message& message, std::size_t count);
 
 /// Bytes of shared memory that one message with the chosen fields takes.
 template <class Fields>

@@ -30,6 +30,7 @@ struct Message
     v1::Envelope envelope;
     transport::Frames arrays;
     std::vector<Unfilled> unfilled;  ///< until fill()
+    std::size_t finite = 0;          ///< so many arrays at the front are known to have neither NaN nor infinity
 
     Kind kind() const { return envelope.kind_case(); }
 };

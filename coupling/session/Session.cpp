@@ -106,7 +106,7 @@ void Session::prepare(Message& message)
     outbox_->announce(envelope);
     try
     {
-        message::fill(message);
+        message::fill(message, [&](std::size_t arrays) { outbox_->pack(arrays); });
     }
     catch (CouplingError const&)
     {
@@ -168,9 +168,13 @@ std::optional<Letter> Session::take_post()
 {
     try
     {
-        if (auto const envelope = postbox_->look()) incoming_ = message::decode_posted(*envelope);
+        if (auto const envelope = postbox_->look())
+        {
+            incoming_ = message::decode_posted(*envelope);
+            message::attach_shared(*incoming_, &postbox_->memory());
+        }
         if (!incoming_) return std::nullopt;
-        auto const packing = postbox_->packing();
+        auto const packing = postbox_->packing([&](std::size_t packed) { message::look_through(*incoming_, packed); });
         if (packing == transport::Postbox::Packing::going_on) return std::nullopt;
         Message message = std::move(*incoming_);
         incoming_.reset();

@@ -19,11 +19,11 @@ namespace gimdem::coupling::transport
 
 struct MailboxPage
 {
-    std::atomic<std::uint32_t> bell;  ///< how often it has rung: odd while a message is packed
-    std::uint32_t bytes;              ///< of the envelope
-    std::int64_t posted;              ///< steady clock [ns]
-    std::uint32_t complete;           ///< 0: the last message was abandoned
-    std::uint32_t unused;
+    std::atomic<std::uint32_t> bell;    ///< how often it has rung: odd while a message is packed
+    std::uint32_t bytes;                ///< of the envelope
+    std::int64_t posted;                ///< steady clock [ns]
+    std::uint32_t complete;             ///< 0: the last message was abandoned
+    std::atomic<std::uint32_t> packed;  ///< arrays of the present message
     unsigned char envelope[max_posted_bytes];
 };
 static_assert(sizeof(MailboxPage) == mailbox_bytes && std::atomic<std::uint32_t>::is_always_lock_free);
@@ -62,9 +62,15 @@ void Outbox::ring()
 
 void Outbox::announce(Frame const& envelope)
 {
+    page_->packed.store(0, std::memory_order_relaxed);
     page_->bytes = static_cast<std::uint32_t>(envelope.size());
     std::memcpy(page_->envelope, envelope.data(), envelope.size());
     ring();
+}
+
+void Outbox::pack(std::size_t arrays)
+{
+    page_->packed.store(static_cast<std::uint32_t>(arrays), std::memory_order_release);
 }
 
 void Outbox::finish()
@@ -108,10 +114,13 @@ std::optional<Frame> Postbox::look()
     return envelope;
 }
 
-Postbox::Packing Postbox::packing()
+Postbox::Packing Postbox::packing(std::function<void(std::size_t)> const& meanwhile)
 {
     for (Time const until = Clock::now() + patience; bell() == announced_;)
+    {
+        if (meanwhile) meanwhile(page_->packed.load(std::memory_order_acquire));
         if (Clock::now() > until) return Packing::going_on;
+    }
     return seen_ == announced_ + 1 && page_->complete != 0 ? Packing::complete : Packing::abandoned;
 }
 

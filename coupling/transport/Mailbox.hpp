@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -30,7 +31,9 @@ public:
 
     /// Rings for an envelope of max_posted_bytes at most whose arrays are packed next.
     void announce(Frame const& envelope);
-    /// The arrays are packed: the message is sent.
+    /// So many arrays of it are packed.
+    void pack(std::size_t arrays);
+    /// All arrays are packed: the message is sent.
     void finish();
     /// There will be no such message.
     void abandon();
@@ -58,10 +61,13 @@ public:
 
     /// The envelope of the message that the peer packs or has packed, once. Fault::protocol for one that is too long.
     std::optional<Frame> look();
-    /// How it stands with that message. Waits a little for the end of packing, without sleeping.
-    Packing packing();
+    /// How it stands with that message. Waits a little for the end of packing, without sleeping, and calls
+    /// meanwhile(n) when n of its arrays are packed.
+    Packing packing(std::function<void(std::size_t)> const& meanwhile = {});
     /// When that message was complete, by the clock that all processes of a machine share.
     Time posted();
+    /// The segment that the arrays lie in.
+    Mapping const& memory() const { return *segment_; }
     /// Sleeps until the bell rings again or it is that time; may return early.
     void wait(Time until) const;
 

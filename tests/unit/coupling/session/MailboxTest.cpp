@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <thread>
@@ -37,20 +38,26 @@ RawMessage fluid()
 
 struct Posting : testing::Test
 {
-    RawSharedClient client{true};
+    std::unique_ptr<RawSharedClient> client = std::make_unique<RawSharedClient>(true);
     std::unique_ptr<Outbox> outbox;
     std::unique_ptr<Postbox> postbox;
 
     void SetUp() override
     {
-        ASSERT_NO_FATAL_FAILURE(client.be_ready());
-        outbox = std::make_unique<Outbox>(client.own);
-        postbox = std::make_unique<Postbox>(client.theirs);
+        ASSERT_NO_FATAL_FAILURE(client->be_ready());
+        outbox = std::make_unique<Outbox>(client->own);
+        postbox = std::make_unique<Postbox>(client->theirs);
+    }
+
+    void SetUpAgain()
+    {
+        client = std::make_unique<RawSharedClient>(true);
+        SetUp();
     }
 
     void announce(RawMessage const& message)
     {
-        std::string const envelope = client.peer.stamped(message).envelope.SerializeAsString();
+        std::string const envelope = client->peer.stamped(message).envelope.SerializeAsString();
         outbox->announce(transport::Frame(envelope.data(), envelope.size()));
     }
 
@@ -76,16 +83,16 @@ TEST_F(Posting, AnswersAFluidInTheMailboxThroughItsOwn)
     std::vector<double> const velocity = FluidArrays(cells, 3).velocity;
     announce(fluid());
     std::this_thread::sleep_for(5ms);  // the server has read the envelope and waits for the numbers
-    std::memcpy(client.own->memory().data(), velocity.data(), velocity_bytes);
+    std::memcpy(client->own->memory().data(), velocity.data(), velocity_bytes);
     outbox->finish();
 
     auto const solid = answer();
     ASSERT_TRUE(solid && solid->has_solid_state());
     EXPECT_EQ(solid->step(), 1);
     EXPECT_TRUE(solid->arrays(0).shared());
-    client.peer.send(raw_goodbye());  // through the socket, while the server waits for the bell
-    EXPECT_EQ(client.end(), "(nothing)");
-    EXPECT_EQ(client.velocity, velocity);
+    client->peer.send(raw_goodbye());  // through the socket, while the server waits for the bell
+    EXPECT_EQ(client->end(), "(nothing)");
+    EXPECT_EQ(client->velocity, velocity);
 }
 
 TEST_F(Posting, HearsNothingOfAnAbandonedFluid)
@@ -101,32 +108,51 @@ TEST_F(Posting, HearsNothingOfAnAbandonedFluid)
     auto const solid = answer();
     ASSERT_TRUE(solid);
     EXPECT_EQ(solid->step(), 1);
-    client.peer.send(raw_goodbye());
-    EXPECT_EQ(client.end(), "(nothing)");
+    client->peer.send(raw_goodbye());
+    EXPECT_EQ(client->end(), "(nothing)");
+}
+
+TEST_F(Posting, IsRefusedForANumberThatIsNone)
+{
+    for (bool const meanwhile : {true, false})
+    {
+        if (!meanwhile) SetUpAgain();
+        double const nan = std::nan("");
+        std::memcpy(client->own->memory().data() + 24 * 17, &nan, sizeof(nan));
+        announce(fluid());
+        if (meanwhile)
+        {
+            outbox->pack(1);  // the server looks through the velocity at once
+            std::this_thread::sleep_for(2ms);
+        }
+        outbox->finish();
+        EXPECT_THAT(client->peer.receive_error(), HasSubstr("field \"velocity\" has nan in cell 17"));
+        client->end();
+    }
 }
 
 TEST_F(Posting, IsRefusedForAnythingButSharedFields)
 {
     announce(RawSharedClient::fluid(0));  // the pressure gradient is not shared
     outbox->finish();
-    EXPECT_THAT(client.peer.receive_error(), HasSubstr("only fields in shared memory may be there"));
-    EXPECT_THAT(client.end(), StartsWith("protocol: "));
+    EXPECT_THAT(client->peer.receive_error(), HasSubstr("only fields in shared memory may be there"));
+    EXPECT_THAT(client->end(), StartsWith("protocol: "));
 }
 
 TEST_F(Posting, IsRefusedForWordsThatBelongInTheSocket)
 {
     announce(raw_goodbye());
     outbox->finish();
-    EXPECT_THAT(client.peer.receive_error(), HasSubstr("Goodbye in a mailbox"));
-    client.end();
+    EXPECT_THAT(client->peer.receive_error(), HasSubstr("Goodbye in a mailbox"));
+    client->end();
 }
 
 TEST_F(Posting, IsRefusedForBytesThatAreNoEnvelope)
 {
     outbox->announce(transport::Frame("\xff\xff\xff", 3));
     outbox->finish();
-    EXPECT_THAT(client.peer.receive_error(), HasSubstr("cannot be read"));
-    client.end();
+    EXPECT_THAT(client->peer.receive_error(), HasSubstr("cannot be read"));
+    client->end();
 }
 
 TEST_F(Posting, IsRefusedForAnotherSession)
@@ -135,8 +161,8 @@ TEST_F(Posting, IsRefusedForAnotherSession)
     message.envelope.set_session(12345);
     announce(message);
     outbox->finish();
-    EXPECT_THAT(client.peer.receive_error(), HasSubstr("belongs to session 12345"));
-    client.end();
+    EXPECT_THAT(client->peer.receive_error(), HasSubstr("belongs to session 12345"));
+    client->end();
 }
 
 TEST(PostingClient, ThatEndsWhileItPacksIsMissedAtOnce)

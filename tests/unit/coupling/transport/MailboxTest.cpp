@@ -8,6 +8,7 @@
 #include <cstring>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "Faults.hpp"
 
@@ -57,6 +58,29 @@ TEST_F(Mailbox, ShowsAnEnvelopeOnceWhileItsArraysArePacked)
     outbox.finish();
     EXPECT_EQ(look(), "second") << "also when it is complete already";
     EXPECT_EQ(postbox.packing(), Packing::complete);
+}
+
+TEST_F(Mailbox, TellsHowManyArraysArePacked)
+{
+    std::vector<std::size_t> told;
+    auto const note = [&](std::size_t arrays)
+    {
+        if (told.empty() || told.back() != arrays) told.push_back(arrays);
+    };
+    for (int message = 0; message < 2; ++message)  // it starts at 0 each time
+    {
+        told.clear();
+        outbox.announce(frame("arrays"));
+        ASSERT_EQ(look(), "arrays");
+        for (std::size_t const arrays : {0, 1, 3})
+        {
+            if (arrays > 0) outbox.pack(arrays);
+            EXPECT_EQ(postbox.packing(note), Packing::going_on);
+        }
+        outbox.finish();
+        EXPECT_EQ(postbox.packing(note), Packing::complete);
+        EXPECT_THAT(told, testing::ElementsAre(0, 1, 3));
+    }
 }
 
 TEST_F(Mailbox, DropsWhatIsAbandoned)
