@@ -21,8 +21,12 @@ TEST(Sjkr, AreaIsThatOfTheCircleInWhichTheSpheresCut)
         for (double const overlap : {1e-6, 1e-4, 5e-4})
         {
             double const b = 1e-3, d = a + b - overlap;
-            ContactGeometry<double> contact{
-                .normal = {1, 0, 0}, .overlap = overlap, .radius_eff = a * b / (a + b), .per_distance = 1 / d};
+            ContactGeometry<double> contact{.normal = {1, 0, 0},
+                                            .overlap = overlap,
+                                            .velocity = {0, 0, 0},
+                                            .radius_eff = a * b / (a + b),
+                                            .mass_eff = 1,
+                                            .per_distance = 1 / d};
             double const x = (d * d + a * a - b * b) / (2 * d);
             // The circle's radius^2 is a difference of squares: a^2 / (overlap a) times the rounding.
             EXPECT_NEAR(Sjkr::area(contact) / (pi * (a * a - x * x)), 1, 1e-12 * a / overlap);
@@ -63,8 +67,9 @@ TEST(Sjkr, PullOffForceIsTheGreatestAttractionAtRest)
     for (double overlap = 1e-8; overlap < 2e-5; overlap += 1e-8)
     {
         ContactSprings<double> springs{};
-        auto const out = Law::apply<double>(
-            constants, 0, {.normal = {0, 0, 1}, .overlap = overlap, .radius_eff = radius, .mass_eff = 1}, springs);
+        ContactGeometry<double> const contact{
+            .normal = {0, 0, 1}, .overlap = overlap, .velocity = {0, 0, 0}, .radius_eff = radius, .mass_eff = 1};
+        auto const out = Law::apply<double>(constants, 0, contact, springs);
         strongest = std::max(strongest, -out.force.z);
     }
     double const s = (-3 * c + std::sqrt(9 * c * c + 64 * radius * p * p)) / (8 * p);

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <regex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -37,12 +36,14 @@ public:
     /// Attribute of the DataArray `name`, empty where it has none.
     std::string attribute(std::string const& name, std::string const& key) const
     {
-        std::smatch element;
-        if (!std::regex_search(text_, element, std::regex("<DataArray [^>]*Name=\"" + name + "\"[^>]*>")))
-            throw std::runtime_error("no array " + name);
-        std::string const found = element.str();
-        std::smatch value;
-        return std::regex_search(found, value, std::regex(" " + key + "=\"([^\"]*)\"")) ? value[1].str() : "";
+        auto const named = text_.find("Name=\"" + name + '"');
+        auto const begin = named == std::string::npos ? named : text_.rfind("<DataArray ", named);
+        if (begin == std::string::npos) throw std::runtime_error("no array " + name);
+        std::string const element = text_.substr(begin, text_.find('>', begin) - begin);
+        auto const at = element.find(' ' + key + "=\"");
+        if (at == std::string::npos) return "";
+        auto const value = at + key.size() + 3;
+        return element.substr(value, element.find('"', value) - value);
     }
 
     template <class T>
