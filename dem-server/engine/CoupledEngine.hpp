@@ -6,6 +6,7 @@
 
 #include "core/Case.hpp"
 #include "engine/DemSystem.hpp"
+#include "engine/device/DeviceDem.hpp"
 #include "gimdem/coupling/Types.hpp"
 #include "mapping/Mapper.hpp"
 
@@ -43,10 +44,14 @@ public:
     /// The solid of the last step; spans live until the next one.
     coupling::SolidFields fields() const;
 
-    std::int64_t particle_clips() const { return forces_.clipped(); }
+    std::int64_t particle_clips() const;
     exec::Buffer<double> const& void_fraction() const { return void_fraction_; }
 
 private:
+    void load_fluid(coupling::FluidFields const& fluid);
+    void sum_into_cells();
+    [[noreturn]] void refuse_particle_outside();
+    ImpulseSums impulse_sums() const;
     void map_particles(double dt, coupling::FluidFields const& fluid, StepReport& report);
     void compute_void_fraction(StepReport& report);
     void compute_momentum_exchange(double dt, coupling::FluidFields const& fluid);

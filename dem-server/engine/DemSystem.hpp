@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -29,11 +30,16 @@ struct FluidOnParticles
     exec::Buffer<double> const& void_fraction;
 };
 
+class DeviceDem;
+
+/// Where the execution names a device, the state lives there. The host's copy is brought up to date when it is asked
+/// for, and goes back before the next step where it could have been changed: prefer the const accessors.
 class DemSystem
 {
 public:
     DemSystem(Case const& settings, exec::Execution execution, Materials const& materials, WallGeometry const& walls,
               ParticleState particles);
+    ~DemSystem();
 
     /// Forces at the present positions, springs unmoved: call once before the first step and after a restart.
     void prepare();
@@ -53,16 +59,19 @@ public:
     /// Whether prescribed wall motion goes on with the steps; until told so walls stand where they are at time 0.
     void let_walls_move(bool move) { walls_move_ = move; }
 
-    ParticleState& particles() { return particles_; }
-    ParticleState const& particles() const { return particles_; }
-    NeighborList& neighbors() { return neighbors_; }
-    NeighborList const& neighbors() const { return neighbors_; }
-    WallContacts& walls() { return wall_contacts_; }
-    WallContacts const& walls() const { return wall_contacts_; }
-    exec::Buffer<Impulse> const& impulses() const { return impulses_; }
+    ParticleState& particles() { return to_change(), particles_; }
+    ParticleState const& particles() const { return to_look(), particles_; }
+    NeighborList& neighbors() { return to_change(), neighbors_; }
+    NeighborList const& neighbors() const { return to_look(), neighbors_; }
+    WallContacts& walls() { return to_change(), wall_contacts_; }
+    WallContacts const& walls() const { return to_look(), wall_contacts_; }
+    exec::Buffer<Impulse> const& impulses() const { return to_look(), impulses_; }
     /// Time integral of the walls' force on all particles over the coupling step so far [N s].
-    Vec3 wall_impulse() const { return wall_impulse_; }
-    std::int64_t rebuilds() const { return rebuilds_; }
+    Vec3 wall_impulse() const;
+    std::int64_t rebuilds() const;
+
+    /// The device that the particles are on, up to date; null where they are on the host.
+    DeviceDem* device();
 
     /// Particles change places when the neighbour list is rebuilt: `listener` is told order, with the particle now at i
     /// having been at order[i]. For whoever else holds data per particle.
@@ -77,6 +86,9 @@ private:
     void update_neighbors();
     void sum_contact_forces(double dt);
     void update_fluid_loads();
+    void to_look() const;
+    void to_change();
+    void refuse_if(bool diverged);
 
     exec::Execution execution_;
     Constant3 gravity_;
@@ -92,6 +104,9 @@ private:
     Vec3 wall_impulse_ = Vec3::Zero();
     std::function<void(std::span<std::int32_t const>)> on_permutation_;
     std::int64_t rebuilds_ = 0;
+    std::unique_ptr<DeviceDem> device_;  ///< null: all is on the host
+    bool device_is_old_ = true;          ///< the host has what the device has not
+    mutable bool host_is_old_ = false;   ///< the other way round
 };
 
 /// True for particles that share one radius and one mass.

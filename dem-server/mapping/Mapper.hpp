@@ -67,6 +67,12 @@ public:
     exec::Buffer<double> const& weights() const { return weights_; }
     CellLayers const& layers() const { return layers_; }
 
+    // What a device needs to do the same.
+    StartCells const& start_cells() const { return start_cells_; }
+    GaussianTables& tables() { return tables_; }
+    exec::Buffer<CellSize> const& cell_sizes() const { return cell_sizes_; }
+    exec::Buffer<std::int32_t> const& reverse_slot() const { return reverse_slot_; }
+
 private:
     void lay_out_rows();
     WeightRows rows() const;
