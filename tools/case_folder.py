@@ -27,7 +27,7 @@ class CaseDescription:
 
     file: Path
     title: str
-    client: str
+    client: str  # "none": particles alone
     grid: str
     grids: list[str]
     schedule: str

@@ -47,6 +47,7 @@ PANELS = (
     Panel("void_fraction", "void_fraction_", "void fraction (plane mean)", "1"),
     Panel("bed_height", "bed_height", "bed height", "mm", 1e3),
     Panel("pressure_drop", "pressure_drop", "pressure drop", "Pa"),
+    Panel("kinetic_energy", "kinetic_energy", "kinetic energy", "J"),
 )
 NOT_A_PLANE = ("pressure_drop", "void_fraction_min", "void_fraction_max", "void_fraction_clips")
 

@@ -19,12 +19,10 @@ from endpoint import Endpoint
 from process import how_it_ended, spawn
 from record import RunRecord
 from report import print_results
+from restart import Restart, find_restart
 from run_folder import copy_case, make_run_folder
 from packages import setup
 from supervise import Child, Outcome, Supervisor
-
-TARGETS = ("gimdem-server", "gimdemFoam")
-
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("case", metavar="CASE_DIR", help="a folder with a case.toml")
@@ -36,6 +34,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--until", metavar="T", type=positive, help="simulated time [s] (case.toml)")
     parser.add_argument("--threads", metavar="N", type=count, help="threads of the server; 0: all cores (case.toml)")
     parser.add_argument("--ranks", metavar="N", type=count, default=1, help="processes of the client (1)")
+    parser.add_argument("--restart", metavar="FILE",
+                        help="go on from a checkpoint, or from the latest of the case: --restart latest")
     parser.add_argument("--output", metavar="DIR", help="run folder; must be new or empty (CASE_DIR/runs/NNNN)")
 
 
@@ -57,9 +57,11 @@ def run(options: argparse.Namespace) -> int:
     refuse_what_is_to_come(options.client, options.device, options.ranks)
     case_file = find_case_file(options.case)
     setup(quiet=True)
-    build(TARGETS)
+    build(("gimdem-server",))
     case = choose(describe(case_file), options)
-    check_openfoam_dictionaries(case)
+    if case.client != "none":
+        build(("gimdemFoam",))
+        check_openfoam_dictionaries(case)
     endpoint = Endpoint(case.endpoint)
     try:
         return run_in_folder(case, options, endpoint)
@@ -78,10 +80,16 @@ def refuse_what_is_to_come(client: str | None, device: str, ranks: int) -> None:
         raise UserError(f"this version runs one client process, not {ranks}; leave out --ranks", 2)
 
 
+def check_client(case: CaseDescription, options: argparse.Namespace) -> None:
+    if case.client == "none" and options.client:
+        raise UserError(f"{shown(case.file)} has no fluid (client = \"none\"); leave out --client", 2)
+
+
 def choose(case: CaseDescription, options: argparse.Namespace) -> CaseDescription:
     """The case as the command line changes it."""
     if options.grid:
         check_grid(case, options.grid)
+    check_client(case, options)
     case.grid = options.grid or case.grid
     case.client = options.client or case.client
     case.schedule = options.schedule or case.schedule
@@ -99,6 +107,7 @@ class Run:
     folder: Path
     endpoint: Endpoint
     threads: int | None
+    restart: Restart | None = None
 
     @property
     def client_log(self) -> Path:
@@ -112,7 +121,7 @@ class Run:
         return {
             "case": str(self.case.file), "client": self.case.client, "grid": self.case.grid,
             "schedule": self.case.schedule, "until": self.case.until, "threads": self.threads,
-            "endpoint": self.endpoint.address,
+            "endpoint": self.endpoint.address, "restart": str(self.restart.checkpoint) if self.restart else None,
         }
 
     def start_server(self, stderr: int) -> subprocess.Popen[bytes]:
@@ -123,8 +132,10 @@ class Run:
         ]
         if self.threads is not None:
             command += ["--threads", str(self.threads)]
+        if self.restart:
+            command += ["--restart", str(self.restart.checkpoint)]
         with self.server_log.open("ab") as log:
-            return spawn(command, stdout=log, stderr=stderr, env=server_environment())
+            return spawn(command, stdout=log, stderr=stderr)
 
     def start_client(self) -> subprocess.Popen[bytes]:
         command = [str(openfoam_client_binary()), "-case", str(self.folder), "-endpoint", self.endpoint.address]
@@ -132,24 +143,22 @@ class Run:
             return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder, env=openfoam.environment())
 
 
-def server_environment() -> dict[str, str]:
-    """Threads that wait for each other sleep after a millisecond.
-
-    libgomp's default is to spin for longer than a scheduler's time slice: where another program wants the core, each of
-    the hundred parallel loops of a step then waits for that slice, and a run takes six times as long.
-    """
-    return {"GOMP_SPINCOUNT": "20000", **os.environ}
-
-
 def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: Endpoint) -> int:
-    run = Run(case, make_run_folder(case, options.output), endpoint, options.threads)
+    restart = find_restart(case, options.restart)
+    run = Run(case, make_run_folder(case, options.output), endpoint, options.threads, restart)
+    alone = case.client == "none"
+    what = "particles alone" if alone else f"grid {case.grid or 'as it is'}, {case.schedule}"
     say("case", case.title)
-    say("run", f"{shown(run.folder)}: grid {case.grid or 'as it is'}, {case.schedule}, until {case.until:g} s")
+    say("run", f"{shown(run.folder)}: {what}, until {case.until:g} s")
     copy_case(case, run.folder)
-    say("mesh", openfoam.make_mesh(run.folder))
+    if restart:
+        restart.copy_fluid(run.folder)
+        say("restart", shown(restart.checkpoint))
+    if not alone:
+        say("mesh", openfoam.make_mesh(run.folder))
     record = RunRecord(run.folder, run.settings())
     start = time.monotonic()
-    outcome = Supervisor(case.timeout).run(run.start_server, endpoint.bound, run.start_client)
+    outcome = Supervisor(case.timeout).run(run.start_server, endpoint.bound, None if alone else run.start_client)
     wall_time = time.monotonic() - start
     record.finish(in_words(outcome), wall_time)
     if outcome.killed or not (outcome.good() or outcome.signal):

@@ -49,6 +49,7 @@ def copy_case(case: CaseDescription, folder: Path) -> None:
     if (case.folder / REFERENCE).exists():
         shutil.copy2(case.folder / REFERENCE, folder / REFERENCE)
     for name in ("0", "constant", "system"):
-        shutil.copytree(case.folder / name, folder / name)
+        if (case.folder / name).is_dir():
+            shutil.copytree(case.folder / name, folder / name)
     if case.grid:
         shutil.copy2(case.folder / "system" / f"blockMeshDict.{case.grid}", folder / "system" / "blockMeshDict")

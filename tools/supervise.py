@@ -43,12 +43,14 @@ class Child:
 
 @dataclass
 class Outcome:
-    """How the pair ended. No client: the server ended, or we were stopped, before the client was started."""
+    """How the pair ended. No client: the server ended, or we were stopped, before the client was started; or the server
+    was to be alone."""
 
     server: Child
     client: Child | None = None
     signal: int = 0  # that asked us to stop, 0: none
     killed: bool = False  # at the second signal
+    alone: bool = False  # no client was wanted
     last_words: list[str] = field(default_factory=list)  # of the server
 
     def children(self) -> list[Child]:
@@ -64,7 +66,7 @@ class Outcome:
 
     def good(self) -> bool:
         ended_well = all(child.code == 0 for child in self.children())
-        return ended_well and not self.killed and (self.client is not None or bool(self.signal))
+        return ended_well and not self.killed and (self.alone or self.client is not None or bool(self.signal))
 
 
 class StopRequest:
@@ -94,17 +96,18 @@ class Supervisor:
 
     def run(
         self, start_server: Callable[[int], subprocess.Popen[bytes]], server_ready: Callable[[], bool],
-        start_client: Callable[[], subprocess.Popen[bytes]],
+        start_client: Callable[[], subprocess.Popen[bytes]] | None,
     ) -> Outcome:
+        """Without `start_client` the server runs alone."""
         stop = StopRequest()
         relay = Relay()
         outcome: Outcome | None = None
         try:
-            outcome = Outcome(Child("gimdem-server", start_server(relay.child_end)))
+            outcome = Outcome(Child("gimdem-server", start_server(relay.child_end)), alone=start_client is None)
             relay.child_started()
-            while outcome.server.alive() and not server_ready() and not stop.count:
+            while start_client and outcome.server.alive() and not server_ready() and not stop.count:
                 relay.pump(POLL, alive=True)
-            if outcome.server.alive() and not stop.count:
+            if start_client and outcome.server.alive() and not stop.count:
                 outcome.client = Child("gimdemFoam", start_client())
             self._watch(outcome, relay, stop)
             outcome.last_words = relay.drain()

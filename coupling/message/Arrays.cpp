@@ -31,6 +31,18 @@ int find(v1::Envelope const& envelope, std::string const& name)
     return -1;
 }
 
+template <class T>
+void append(Message& message, std::string const& name, unsigned components, transport::Frame frame)
+{
+    v1::ArrayHeader* const header = message.envelope.add_arrays();
+    header->set_name(name);
+    header->set_type(element_type<T>);
+    header->set_components(components);
+    header->set_count(frame.size() / sizeof(T) / components);
+    header->set_dense(true);
+    message.arrays.push_back(std::move(frame));
+}
+
 }  // namespace
 
 std::size_t element_size(v1::ElementType type)
@@ -66,17 +78,16 @@ void align(transport::Frame& frame, std::size_t size)
 }
 
 template <class T>
-void append_array(Message& message, std::string const& name, unsigned components, Span<T const> values,
-                  transport::Frame frame)
+void append_array(Message& message, std::string const& name, unsigned components, Span<T const> values)
 {
-    v1::ArrayHeader* const header = message.envelope.add_arrays();
-    header->set_name(name);
-    header->set_type(element_type<T>);
-    header->set_components(components);
-    header->set_count(values.size() / components);
-    header->set_dense(true);
-    if (!values.empty()) std::memcpy(frame.data(), values.data(), values.size() * sizeof(T));
-    message.arrays.push_back(std::move(frame));
+    transport::Frame frame(values.size() * sizeof(T));
+    if (!values.empty()) std::memcpy(frame.data(), values.data(), frame.size());
+    append<T>(message, name, components, std::move(frame));
+}
+
+void append_array(Message& message, std::string const& name, unsigned components, transport::Frame frame)
+{
+    append<double>(message, name, components, std::move(frame));
 }
 
 template <class T>
@@ -84,16 +95,16 @@ Span<T const> view_array(Message const& message, std::string const& name, unsign
                          std::optional<std::size_t> rows)
 {
     int const k = find(message.envelope, name);
-    std::string const who = describe(message) + ": array \"" + name + "\"";
-    if (k < 0) refuse(who + " is missing");
+    auto const who = [&] { return describe(message) + ": array \"" + name + "\""; };
+    if (k < 0) refuse(who() + " is missing");
 
     v1::ArrayHeader const& header = message.envelope.arrays(k);
-    if (header.type() != element_type<T>) refuse(who + " has another element type than docs/protocol.md tells");
+    if (header.type() != element_type<T>) refuse(who() + " has another element type than docs/protocol.md tells");
     if (header.components() != components)
-        refuse(who + " has " + std::to_string(header.components()) + " components instead of " +
+        refuse(who() + " has " + std::to_string(header.components()) + " components instead of " +
                std::to_string(components));
     if (rows && header.count() != *rows)
-        refuse(who + " has " + std::to_string(header.count()) + " rows instead of " + std::to_string(*rows));
+        refuse(who() + " has " + std::to_string(header.count()) + " rows instead of " + std::to_string(*rows));
 
     transport::Frame const& frame = message.arrays[static_cast<std::size_t>(k)];
     return {static_cast<T const*>(frame.data()), frame.size() / sizeof(T)};
@@ -106,9 +117,9 @@ void check_array_count(Message const& message, std::size_t count)
                std::to_string(count));
 }
 
-template void append_array(Message&, std::string const&, unsigned, Span<double const>, transport::Frame);
-template void append_array(Message&, std::string const&, unsigned, Span<std::int32_t const>, transport::Frame);
-template void append_array(Message&, std::string const&, unsigned, Span<std::int64_t const>, transport::Frame);
+template void append_array(Message&, std::string const&, unsigned, Span<double const>);
+template void append_array(Message&, std::string const&, unsigned, Span<std::int32_t const>);
+template void append_array(Message&, std::string const&, unsigned, Span<std::int64_t const>);
 template Span<double const> view_array(Message const&, std::string const&, unsigned, std::optional<std::size_t>);
 template Span<std::int32_t const> view_array(Message const&, std::string const&, unsigned, std::optional<std::size_t>);
 template Span<std::int64_t const> view_array(Message const&, std::string const&, unsigned, std::optional<std::size_t>);

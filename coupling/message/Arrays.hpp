@@ -22,16 +22,11 @@ std::size_t element_size(v1::ElementType type);
 /// Gives the bytes of a frame an address that is a multiple of size, by copying them if need be.
 void align(transport::Frame& frame, std::size_t size);
 
-/// Adds values to a message, as rows of that many components. T: double, int32_t or int64_t. The frame is one of that
-/// many bytes, to be filled.
+/// Adds values to a message, as rows of that many components. T: double, int32_t or int64_t.
 template <class T>
-void append_array(Message& message, std::string const& name, unsigned components, Span<T const> values,
-                  transport::Frame frame);
-template <class T>
-void append_array(Message& message, std::string const& name, unsigned components, Span<T const> values)
-{
-    append_array(message, name, components, values, transport::Frame(values.size() * sizeof(T)));
-}
+void append_array(Message& message, std::string const& name, unsigned components, Span<T const> values);
+/// The same for doubles that are in their frame already.
+void append_array(Message& message, std::string const& name, unsigned components, transport::Frame frame);
 
 /// The numbers of the array of that name, in place; they live as long as the message. Fault::protocol if it is absent,
 /// has another type or components, or another number of rows than asked for.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "message/Codec.hpp"
 
-#include <set>
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -12,6 +12,7 @@
 
 #include "gimdem/coupling/Types.hpp"
 #include "message/Arrays.hpp"
+#include "message/SharedArrays.hpp"
 
 namespace gimdem::coupling::message
 {
@@ -47,19 +48,19 @@ void check_version(v1::Envelope const& envelope)
 
 void check_array(v1::ArrayHeader const& header, transport::Frame& frame)
 {
-    std::string const who = "array \"" + header.name() + "\"";
+    auto const who = [&] { return "array \"" + header.name() + "\""; };
     std::size_t const size = element_size(header.type());
-    if (size == 0) refuse(who + " has an unknown element type");
-    if (!header.dense()) refuse(who + " is sparse (protocol 1.0 has dense arrays only)");
+    if (size == 0) refuse(who() + " has an unknown element type");
+    if (!header.dense()) refuse(who() + " is sparse (protocol 1.0 has dense arrays only)");
     if (header.components() < 1 || header.components() > max_components)
-        refuse(who + " has " + std::to_string(header.components()) + " components (1 to " +
+        refuse(who() + " has " + std::to_string(header.components()) + " components (1 to " +
                std::to_string(max_components) + ")");
 
     std::size_t const row_bytes = size * header.components();
     bool const fits = header.count() <= transport::max_frame_bytes / row_bytes;
     if (fits && header.shared() && frame.empty()) return;  // its place is checked where the memory is known
     if (!fits || header.shared() || header.count() * row_bytes != frame.size())
-        refuse(who + " has " + std::to_string(frame.size()) + " bytes, but its header promises " +
+        refuse(who() + " has " + std::to_string(frame.size()) + " bytes, but its header promises " +
                std::to_string(header.count()) + " rows of " + std::to_string(row_bytes) +
                " bytes (a truncated or padded frame)");
     align(frame, size);
@@ -72,11 +73,12 @@ void check_arrays(Message& message)
         refuse(describe(message) + " has " + std::to_string(message.arrays.size()) +
                " array frames, but its envelope describes " + std::to_string(headers.size()));
 
-    std::set<std::string> names;
     for (int k = 0; k < headers.size(); ++k)
     {
         check_name(headers[k].name(), "the name of an array");
-        if (!names.insert(headers[k].name()).second) refuse("array \"" + headers[k].name() + "\" comes twice");
+        auto const is_same = [&](v1::ArrayHeader const& other) { return other.name() == headers[k].name(); };
+        if (std::any_of(headers.begin(), headers.begin() + k, is_same))
+            refuse("array \"" + headers[k].name() + "\" comes twice");
         if (headers[k].shared() && message.kind() == Kind::kMesh)
             refuse("array \"" + headers[k].name() + "\" of a Mesh in shared memory (only fields may lie there)");
         check_array(headers[k], message.arrays[static_cast<std::size_t>(k)]);
@@ -101,18 +103,43 @@ bool may_have_arrays(Kind kind)
     return kind == Kind::kMesh || kind == Kind::kFluidState || kind == Kind::kSolidState;
 }
 
+void read_envelope(transport::Frame const& frame, Message& message)
+{
+    if (frame.size() > max_envelope_bytes)
+        refuse("an envelope of " + std::to_string(frame.size()) + " bytes (too large)");
+    if (!read_quietly(message.envelope, frame))
+        refuse("an envelope of " + std::to_string(frame.size()) + " bytes that cannot be read");
+}
+
+/// All that does not depend on the state of the session.
+void check(Message& message)
+{
+    check_version(message.envelope);
+    if (message.kind() == Kind::KIND_NOT_SET) refuse("an envelope without a message in it");
+    if (message.envelope.iteration() != 0)
+        refuse("iteration " + std::to_string(message.envelope.iteration()) + " (protocol 1.0 has only 0)");
+    if (!may_have_arrays(message.kind()) && !message.arrays.empty())
+        refuse(kind_name(message.kind()) + " with array frames (it has none)");
+    check_arrays(message);
+}
+
 }  // namespace
 
-transport::Frames encode(Message message)
+transport::Frame encode_envelope(Message& message)
 {
     message.envelope.set_protocol_major(protocol_major);
     message.envelope.set_protocol_minor(protocol_minor);
     check_before_sending(message);
+    transport::Frame frame(message.envelope.ByteSizeLong());
+    message.envelope.SerializeToArray(frame.data(), static_cast<int>(frame.size()));
+    return frame;
+}
 
+transport::Frames encode(Message message)
+{
     transport::Frames frames;
     frames.reserve(1 + message.arrays.size());
-    frames.emplace_back(message.envelope.ByteSizeLong());
-    message.envelope.SerializeToArray(frames.front().data(), static_cast<int>(frames.front().size()));
+    frames.push_back(encode_envelope(message));
     for (std::size_t k = 0; k < message.arrays.size(); ++k)
     {
         bool const shared = message.envelope.arrays(static_cast<int>(k)).shared();
@@ -134,21 +161,25 @@ Message decode(transport::Frames frames)
         refuse("a message of more than " + std::to_string(transport::max_frames) + " frames");
 
     Message message;
-    transport::Frame const& first = frames.front();
-    if (first.size() > max_envelope_bytes)
-        refuse("an envelope of " + std::to_string(first.size()) + " bytes (too large)");
-    if (!read_quietly(message.envelope, first))
-        refuse("an envelope of " + std::to_string(first.size()) + " bytes that cannot be read");
-    check_version(message.envelope);
-    if (message.kind() == Kind::KIND_NOT_SET) refuse("an envelope without a message in it");
-    if (message.envelope.iteration() != 0)
-        refuse("iteration " + std::to_string(message.envelope.iteration()) + " (protocol 1.0 has only 0)");
-
+    read_envelope(frames.front(), message);
     for (std::size_t k = 1; k < frames.size(); ++k)
         message.arrays.push_back(std::move(frames[k]));
-    if (!may_have_arrays(message.kind()) && !message.arrays.empty())
-        refuse(kind_name(message.kind()) + " with array frames (it has none)");
-    check_arrays(message);
+    check(message);
+    return message;
+}
+
+Message decode_posted(transport::Frame const& envelope)
+{
+    Message message;
+    read_envelope(envelope, message);
+    check_version(message.envelope);
+    if (!may_be_posted(message))
+        refuse(describe(message) + " in a mailbox (only fields in shared memory may be there)");
+    auto const count = static_cast<std::size_t>(message.envelope.arrays_size());
+    if (count >= transport::max_frames)
+        refuse("a message of more than " + std::to_string(transport::max_frames) + " frames");
+    message.arrays.resize(count);
+    check(message);
     return message;
 }
 

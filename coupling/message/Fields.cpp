@@ -2,6 +2,7 @@
 #include "message/Fields.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "message/Arrays.hpp"
 #include "message/Finite.hpp"
@@ -46,15 +47,13 @@ FieldChoice<Fields> choose(std::vector<std::string> const& names, Table const& t
 }
 
 /// "velocity has nan in cell 12".
-template <class Fields>
-std::string not_finite_text(FieldEntry<Fields> const& entry, Span<double const> values, std::size_t i)
+std::string not_finite_text(std::string const& name, unsigned components, Span<double const> values, std::size_t i)
 {
-    return "field \"" + std::string(entry.name) + "\" has " + number_text(values[i]) + " in cell " +
-           std::to_string(i / entry.components);
+    return "field \"" + name + "\" has " + number_text(values[i]) + " in cell " + std::to_string(i / components);
 }
 
 template <class Fields>
-void check_before_sending(FieldEntry<Fields> const& entry, Span<double const> values, std::size_t cell_count)
+void check_size(FieldEntry<Fields> const& entry, Span<double const> values, std::size_t cell_count)
 {
     std::size_t const size = cell_count * entry.components;
     if (values.size() != size)
@@ -63,9 +62,6 @@ void check_before_sending(FieldEntry<Fields> const& entry, Span<double const> va
                                              std::to_string(cell_count) + " cells, " +
                                              std::to_string(entry.components) + " each, so " + std::to_string(size) +
                                              "); pass the whole field, the peer needs it");
-    if (auto const i = first_not_finite(values))
-        throw CouplingError(
-            Fault::user, not_finite_text(entry, values, *i) + " (the solution has diverged); try a smaller time step");
 }
 
 }  // namespace
@@ -83,17 +79,34 @@ FieldChoice<SolidFields> choose_solid_fields(std::vector<std::string> const& nam
 }
 
 template <class Fields>
-void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
-                   transport::SendMemory const& memory)
+void lay_out_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
+                    transport::SendMemory const& memory)
 {
     memory.begin_message();
     for (auto const& entry : choice)
     {
         Span<double const> const values = fields.*entry.values;
-        check_before_sending(entry, values, cell_count);
-        append_array(message, entry.name, entry.components, values, memory.make(values.size() * sizeof(double)));
-        if (auto const offset = memory.offset_of(message.arrays.back())) mark_shared(message, *offset);
+        check_size(entry, values, cell_count);
+        transport::Frame frame = memory.make(values.size() * sizeof(double));
+        auto const offset = memory.offset_of(frame);
+        message.unfilled.push_back({message.arrays.size(), values, offset.has_value()});
+        append_array(message, entry.name, entry.components, std::move(frame));
+        if (offset) mark_shared(message, *offset);
     }
+}
+
+void fill(Message& message)
+{
+    for (Unfilled const& field : message.unfilled)
+    {
+        auto* const to = static_cast<double*>(message.arrays[field.array].data());
+        if (field.is_shared ? stream_finite(field.values, to) : copy_finite(field.values, to)) continue;
+        v1::ArrayHeader const& header = message.envelope.arrays(static_cast<int>(field.array));
+        std::size_t const i = *first_not_finite(field.values);
+        throw CouplingError(Fault::user, not_finite_text(header.name(), header.components(), field.values, i) +
+                                             " (the solution has diverged); try a smaller time step");
+    }
+    message.unfilled.clear();
 }
 
 template <class Fields>
@@ -113,17 +126,17 @@ Fields view_fields(Message const& message, FieldChoice<Fields> const& choice, st
     {
         Span<double const> const values = view_array<double>(message, entry.name, entry.components, cell_count);
         if (auto const i = first_not_finite(values))
-            refuse(describe(message) + ": " + not_finite_text(entry, values, *i));
+            refuse(describe(message) + ": " + not_finite_text(entry.name, entry.components, values, *i));
         fields.*entry.values = values;
     }
     check_array_count(message, choice.size());
     return fields;
 }
 
-template void append_fields(Message&, FieldChoice<FluidFields> const&, FluidFields const&, std::size_t,
-                            transport::SendMemory const&);
-template void append_fields(Message&, FieldChoice<SolidFields> const&, SolidFields const&, std::size_t,
-                            transport::SendMemory const&);
+template void lay_out_fields(Message&, FieldChoice<FluidFields> const&, FluidFields const&, std::size_t,
+                             transport::SendMemory const&);
+template void lay_out_fields(Message&, FieldChoice<SolidFields> const&, SolidFields const&, std::size_t,
+                             transport::SendMemory const&);
 template std::size_t shared_bytes(FieldChoice<FluidFields> const&, std::size_t);
 template std::size_t shared_bytes(FieldChoice<SolidFields> const&, std::size_t);
 template FluidFields view_fields(Message const&, FieldChoice<FluidFields> const&, std::size_t);

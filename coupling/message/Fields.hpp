@@ -44,11 +44,14 @@ using FieldChoice = std::vector<FieldEntry<Fields>>;
 FieldChoice<FluidFields> choose_fluid_fields(std::vector<std::string> const& names, Fault fault);
 FieldChoice<SolidFields> choose_solid_fields(std::vector<std::string> const& names, Fault fault);
 
-/// Adds the chosen fields to a message, in shared memory where the peer reads it. Fault::user if one has not cell_count
-/// rows, or holds a NaN or infinity.
+/// Adds the chosen fields to a message, in shared memory where the peer reads it, and leaves the copying to fill().
+/// Fault::user if one has not cell_count rows.
 template <class Fields>
-void append_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
-                   transport::SendMemory const& memory);
+void lay_out_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
+                    transport::SendMemory const& memory);
+
+/// Copies what is unfilled. Fault::user for a NaN or infinity.
+void fill(Message& message);
 
 /// Bytes of shared memory that one message with the chosen fields takes.
 template <class Fields>

@@ -2,9 +2,12 @@
 /// A message between pack and send, or between receive and unpack.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "gimdem/coupling/Error.hpp"
+#include "gimdem/coupling/Span.hpp"
 #include "gimdem/v1/session.pb.h"
 #include "transport/Frames.hpp"
 
@@ -13,11 +16,20 @@ namespace gimdem::coupling::message
 
 using Kind = v1::Envelope::KindCase;
 
+/// Numbers that are still to be copied into their frame.
+struct Unfilled
+{
+    std::size_t array;  ///< position among the arrays
+    Span<double const> values;
+    bool is_shared;  ///< the frame lies in memory that the peer reads
+};
+
 /// The envelope, and the frames of the arrays that it describes.
 struct Message
 {
     v1::Envelope envelope;
     transport::Frames arrays;
+    std::vector<Unfilled> unfilled;  ///< until fill()
 
     Kind kind() const { return envelope.kind_case(); }
 };

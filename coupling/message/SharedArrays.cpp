@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "message/SharedArrays.hpp"
 
+#include <algorithm>
+
 #include "message/Arrays.hpp"
 
 namespace gimdem::coupling::message
@@ -16,11 +18,14 @@ std::size_t byte_count(v1::ArrayHeader const& header)
 void attach(v1::ArrayHeader const& header, transport::Frame& frame, transport::Mapping const& memory)
 {
     std::size_t const bytes = byte_count(header);
-    std::string const who = "array \"" + header.name() + "\" of " + std::to_string(bytes) + " bytes at offset " +
-                            std::to_string(header.offset()) + " of the shared memory";
+    auto const who = [&]
+    {
+        return "array \"" + header.name() + "\" of " + std::to_string(bytes) + " bytes at offset " +
+               std::to_string(header.offset()) + " of the shared memory";
+    };
     if (header.offset() > memory.bytes() || bytes > memory.bytes() - header.offset())
-        refuse(who + " lies out of bounds (the segment has " + std::to_string(memory.bytes()) + " bytes)");
-    if (header.offset() % element_size(header.type()) != 0) refuse(who + " is not aligned to its numbers");
+        refuse(who() + " lies out of bounds (the segment has " + std::to_string(memory.bytes()) + " bytes)");
+    if (header.offset() % element_size(header.type()) != 0) refuse(who() + " is not aligned to its numbers");
     frame = transport::Frame(
         memory.data() + header.offset(), bytes, [](void*, void*) {}, nullptr);
 }
@@ -56,11 +61,24 @@ std::size_t array_bytes(Message const& message)
 void offer_shared_memory(Message& message)
 {
     message.envelope.mutable_shared_memory()->set_offered(true);
+    message.envelope.mutable_shared_memory()->set_mailbox(true);
 }
 
 bool offers_shared_memory(Message const& message)
 {
     return message.envelope.shared_memory().offered();
+}
+
+bool offers_mailbox(Message const& message)
+{
+    return message.envelope.shared_memory().mailbox();
+}
+
+bool may_be_posted(Message const& message)
+{
+    auto const& headers = message.envelope.arrays();
+    return (message.kind() == Kind::kFluidState || message.kind() == Kind::kSolidState) &&
+           std::all_of(headers.begin(), headers.end(), [](v1::ArrayHeader const& header) { return header.shared(); });
 }
 
 void announce_segment(Message& message, transport::SegmentNotice const& notice)

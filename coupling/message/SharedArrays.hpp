@@ -24,6 +24,10 @@ std::size_t array_bytes(Message const& message);
 /// Hello and Welcome: the sender can use shared memory and wants to.
 void offer_shared_memory(Message& message);
 bool offers_shared_memory(Message const& message);
+bool offers_mailbox(Message const& message);
+
+/// May this message go through a mailbox: the fields of a step, all of them shared?
+bool may_be_posted(Message const& message);
 
 /// Mesh and MeshAccepted: the sender's segment; an empty notice if it has none.
 void announce_segment(Message& message, transport::SegmentNotice const& notice);

@@ -70,7 +70,7 @@ std::vector<Monitor> unpack_monitors(v1::FluidState const& body)
 
 }  // namespace
 
-Message pack(FluidState const& state, Terms const& terms)
+Message lay_out(FluidState const& state, Terms const& terms)
 {
     double constexpr lowest = std::numeric_limits<double>::lowest();
     check_sent_number(state.step.time, lowest, "step.time");
@@ -86,11 +86,11 @@ Message pack(FluidState const& state, Terms const& terms)
     pack_timings(state.previous, *body.mutable_previous());
     body.set_exchange(state.exchange);
     body.set_waiting(state.waiting);
-    append_fields(message, terms.fluid, state.fields, terms.cell_count, terms.memory);
+    lay_out_fields(message, terms.fluid, state.fields, terms.cell_count, terms.memory);
     return message;
 }
 
-Message pack(SolidState const& state, Terms const& terms)
+Message lay_out(SolidState const& state, Terms const& terms)
 {
     Message message;
     v1::SolidState& body = *message.envelope.mutable_solid_state();
@@ -98,7 +98,7 @@ Message pack(SolidState const& state, Terms const& terms)
     body.set_busy_time(state.busy_time);
     body.set_stop_requested(state.stop_request.has_value());
     body.set_stop_reason(printable(state.stop_request.value_or("")));
-    append_fields(message, terms.solid, state.fields, terms.cell_count, terms.memory);
+    lay_out_fields(message, terms.solid, state.fields, terms.cell_count, terms.memory);
     return message;
 }
 

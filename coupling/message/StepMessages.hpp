@@ -32,9 +32,18 @@ struct Terms
     transport::SendMemory memory;  ///< of the fields that we send
 };
 
-/// Fault::user if a field or number cannot be sent.
-Message pack(FluidState const& state, Terms const& terms);
-Message pack(SolidState const& state, Terms const& terms);
+/// A message whose fields fill() copies. Fault::user if a field has the wrong size, or a number cannot be sent.
+Message lay_out(FluidState const& state, Terms const& terms);
+Message lay_out(SolidState const& state, Terms const& terms);
+
+/// The same with its fields. Fault::user also if one of their numbers cannot be sent.
+template <class State>
+Message pack(State const& state, Terms const& terms)
+{
+    Message message = lay_out(state, terms);
+    fill(message);
+    return message;
+}
 
 /// Fault::protocol if anything is missing, has the wrong size, or is not finite. Spans live as long as the message.
 FluidState unpack_fluid_state(Message const& message, Terms const& terms);

@@ -114,8 +114,8 @@ void Client::Impl::send_mesh(MeshView const& mesh)
 
     session::Letter const letter = receive("MeshAccepted");
     session.read([&] { message::check_mesh_accepted(letter.message, mesh.cell_count); });
-    shared.use_if_confirmed(letter.message, terms.memory);
-    session.read([&] { shared.map_announced(letter.message); });
+    session.use(shared.use_if_confirmed(letter.message, terms.memory));
+    session.use(session.read([&] { return shared.map_announced(letter.message); }));
     take_solid();
 }
 
@@ -127,12 +127,13 @@ void Client::Impl::begin_step(Step const& next, FluidFields const& fluid, std::v
 
     ExchangeTimes const& so_far = clock.times();
     message::Message message =
-        message::pack(FluidState{next, fluid, monitors, previous, so_far.exchange, so_far.waiting}, terms);
+        message::lay_out(FluidState{next, fluid, monitors, previous, so_far.exchange, so_far.waiting}, terms);
+    shared.confirm(message);
+    session.prepare(message);
     session.look_for_trouble("the fluid of its program");
     step = next.number;
     session.set_step(step);
     session.advance(call);
-    shared.confirm(message);
     session.send(std::move(message));
     terms.memory.message_sent();
     clock.sent(entered, Clock::now());

@@ -115,7 +115,8 @@ Mesh Server::Impl::receive_mesh()
     if (said_goodbye(letter))
         throw CouplingError(Fault::peer,
                             session.peer_name() + " said goodbye before it sent its mesh: " + goodbye_reason);
-    session.read([&] { shared.map_announced(letter.message); });  // first, so that no fault leaves its name behind
+    session.use(session.read(
+        [&] { return shared.map_announced(letter.message); }));  // first, so that no fault leaves its name behind
     Mesh mesh = session.read([&] { return message::unpack_mesh(letter.message); });
     terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
     return mesh;
@@ -153,7 +154,7 @@ std::optional<FluidState> Server::Impl::receive_fluid()
     session.read([&] { shared.attach(letter.message); });
     FluidState fluid = session.read([&] { return message::unpack_fluid_state(letter.message, terms); });
     check_order(fluid.step);
-    shared.use_if_confirmed(letter.message, terms.memory);
+    if (auto outbox = shared.use_if_confirmed(letter.message, terms.memory)) session.use(std::move(outbox));
     fluid_message = std::move(letter.message);
     busy_before = std::max(0.0, seconds_between(letter.arrival, entered));
     handed_out = Clock::now();
@@ -164,7 +165,8 @@ void Server::Impl::send_solid(SolidFields const& fields, Timings const& timings)
 {
     double const busy = busy_before + seconds_between(handed_out, Clock::now());
     session.require(Event::send_solid);
-    message::Message solid = message::pack(message::SolidState{fields, timings, busy, stop_reason()}, terms);
+    message::Message solid = message::lay_out(message::SolidState{fields, timings, busy, stop_reason()}, terms);
+    session.prepare(solid);
     session.look_for_trouble("the solid of its program");
     session.advance(Event::send_solid);
     session.send(std::move(solid));

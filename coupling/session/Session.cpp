@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/Session.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 #include <utility>
 
 #include "message/Codec.hpp"
+#include "message/Fields.hpp"
 #include "message/SharedArrays.hpp"
 
 namespace gimdem::coupling::session
@@ -19,6 +21,8 @@ using message::Message;
 
 /// Last words get so long to leave.
 auto constexpr linger = 1s;
+/// Whoever waits for the bell of a mailbox looks this often whether something came through the channel.
+auto constexpr look_interval = 20ms;
 
 }  // namespace
 
@@ -91,22 +95,53 @@ void Session::choose_session_number()
     while (session_number_ == 0);
 }
 
+void Session::prepare(Message& message)
+{
+    stamp(message);
+    is_announced_ = false;
+    if (!outbox_ || !message::may_be_posted(message)) return message::fill(message);
+    transport::Frame const envelope = message::encode_envelope(message);
+    if (envelope.size() > transport::max_posted_bytes) return message::fill(message);
+
+    outbox_->announce(envelope);
+    try
+    {
+        message::fill(message);
+    }
+    catch (CouplingError const&)
+    {
+        outbox_->abandon();
+        throw;
+    }
+    is_announced_ = true;
+}
+
 void Session::send(Message message)
 {
-    message.envelope.set_session(session_number_);
+    stamp(message);
+    bytes_ += static_cast<double>(message::array_bytes(message));
+    if (std::exchange(is_announced_, false) && message::may_be_posted(message))
     {
-        std::lock_guard<std::mutex> const lock(mutex_);
-        message.envelope.set_step(step_);
+        bytes_ += static_cast<double>(message.envelope.ByteSizeLong());
+        return outbox_->finish();
     }
-    std::size_t const array_bytes = message::array_bytes(message);
     transport::Frames frames = message::encode(std::move(message));
-    bytes_ += static_cast<double>(frames.front().size() + array_bytes);
+    bytes_ += static_cast<double>(frames.front().size());
     channel_->send(std::move(frames));
+}
+
+/// Session and step, unless the message knows its step.
+void Session::stamp(Message& message) const
+{
+    message.envelope.set_session(session_number_);
+    if (message.envelope.step() != 0) return;
+    std::lock_guard<std::mutex> const lock(mutex_);
+    message.envelope.set_step(step_);
 }
 
 Letter Session::receive(std::string const& awaited, Time deadline, double patience)
 {
-    Delivery delivery = inbox_.wait(deadline);
+    Delivery delivery = next_letter(deadline);
     if (delivery.ending) fail_by_ending(*delivery.ending, awaited);
     if (!delivery.letter) fail_by_delay(awaited, patience);
 
@@ -115,6 +150,37 @@ Letter Session::receive(std::string const& awaited, Time deadline, double patien
     bytes_ += static_cast<double>(message.envelope.ByteSizeLong() + message::array_bytes(message));
     advance(*event_of(message.kind()));
     return std::move(*delivery.letter);
+}
+
+Delivery Session::next_letter(Time deadline)
+{
+    if (!postbox_) return inbox_.wait(deadline);
+    while (true)
+    {
+        if (auto letter = take_post()) return {std::move(letter), std::nullopt};
+        Time const now = transport::Clock::now();
+        if (now >= deadline || inbox_.peek() || inbox_.has_ended()) return inbox_.wait(now);
+        postbox_->wait(std::min(deadline, now + look_interval));
+    }
+}
+
+std::optional<Letter> Session::take_post()
+{
+    try
+    {
+        if (auto const envelope = postbox_->look()) incoming_ = message::decode_posted(*envelope);
+        if (!incoming_) return std::nullopt;
+        auto const packing = postbox_->packing();
+        if (packing == transport::Postbox::Packing::going_on) return std::nullopt;
+        Message message = std::move(*incoming_);
+        incoming_.reset();
+        if (packing == transport::Postbox::Packing::abandoned) return std::nullopt;
+        return Letter{std::move(message), std::nullopt, postbox_->posted()};
+    }
+    catch (CouplingError const& error)
+    {
+        return Letter{{}, error, transport::Clock::now()};
+    }
 }
 
 void Session::look_for_trouble(std::string const& awaited)

@@ -7,11 +7,13 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "message/Control.hpp"
 #include "session/Inbox.hpp"
 #include "session/States.hpp"
 #include "transport/Channel.hpp"
+#include "transport/Mailbox.hpp"
 
 namespace gimdem::coupling::session
 {
@@ -50,7 +52,14 @@ public:
     /// Server: the session number that every later message carries.
     void choose_session_number();
 
+    /// Fills the fields of a step, which send() then sends; where it can, the peer reads the envelope meanwhile.
+    /// Fault::user if a number cannot be sent: nothing has been sent, and nothing happens.
+    void prepare(message::Message& message);
     void send(message::Message message);
+
+    /// From now on messages that may be posted go through these; null: they do not.
+    void use(std::unique_ptr<transport::Outbox> outbox) { outbox_ = std::move(outbox); }
+    void use(std::unique_ptr<transport::Postbox> postbox) { postbox_ = std::move(postbox); }
 
     /// The next message, checked against the state table. awaited: what we wait for, in words.
     Letter receive(std::string const& awaited, Time deadline, double patience);
@@ -79,6 +88,9 @@ public:
 
 private:
     bool is_over() const;
+    Delivery next_letter(Time deadline);
+    std::optional<Letter> take_post();
+    void stamp(message::Message& message) const;
     void fall(std::string const& why);
     void tell(Fault fault, std::string const& reason);
     void check_letter(Letter const& letter, std::string const& awaited);
@@ -112,6 +124,10 @@ private:
     message::Heartbeat peer_heartbeat_;  ///< the last one
 
     Inbox inbox_;
+    std::unique_ptr<transport::Outbox> outbox_;    ///< null: everything goes through the channel
+    std::unique_ptr<transport::Postbox> postbox_;  ///< null: everything comes through the channel
+    bool is_announced_ = false;                    ///< prepare() told the peer
+    std::optional<message::Message> incoming_;     ///< announced by the peer, perhaps not complete yet
     std::unique_ptr<transport::Channel> channel_;  ///< last: its thread uses the rest
 };
 

@@ -16,24 +16,26 @@ void SharedFields::offer(message::Message& greeting) const
 void SharedFields::agree(message::Message const& greeting)
 {
     agreed_ = wanted_ && message::offers_shared_memory(greeting);
+    has_mailbox_ = agreed_ && message::offers_mailbox(greeting);
 }
 
 void SharedFields::announce(message::Message& message, std::size_t message_bytes)
 {
     if (!agreed_ || message_bytes == 0) return;
-    auto made = transport::make_segment(transport::slot_count * message_bytes);
+    auto made = transport::make_segment(transport::segment_bytes(message_bytes));
     note_obstacle(made.obstacle);
     announced_ = std::move(made.segment);
     if (announced_) message::announce_segment(message, announced_->notice());
 }
 
-void SharedFields::map_announced(message::Message const& message)
+std::unique_ptr<transport::Postbox> SharedFields::map_announced(message::Message const& message)
 {
     transport::SegmentNotice const notice = message::announced_segment(message);
-    if (!agreed_ || notice.empty()) return;
+    if (!agreed_ || notice.empty()) return nullptr;
     auto mapped = transport::map_segment(notice);
     note_obstacle(mapped.obstacle);
     peer_ = std::move(mapped.segment);
+    return peer_ && has_mailbox_ ? std::make_unique<transport::Postbox>(peer_) : nullptr;
 }
 
 void SharedFields::confirm(message::Message& message) const
@@ -41,12 +43,15 @@ void SharedFields::confirm(message::Message& message) const
     if (peer_) message::confirm_segment(message);
 }
 
-void SharedFields::use_if_confirmed(message::Message const& message, transport::SendMemory const& memory)
+std::unique_ptr<transport::Outbox> SharedFields::use_if_confirmed(message::Message const& message,
+                                                                  transport::SendMemory const& memory)
 {
-    if (!announced_) return;
-    announced_->remove_name();
-    if (message::confirms_segment(message)) memory.use(announced_);
-    announced_.reset();
+    if (!announced_) return nullptr;
+    auto const segment = std::move(announced_);
+    segment->remove_name();
+    if (!message::confirms_segment(message)) return nullptr;
+    memory.use(segment);
+    return has_mailbox_ ? std::make_unique<transport::Outbox>(segment) : nullptr;
 }
 
 void SharedFields::attach(message::Message& message) const

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "message/Message.hpp"
+#include "transport/Mailbox.hpp"
 #include "transport/SendMemory.hpp"
 #include "transport/SharedMemory.hpp"
 
@@ -29,12 +30,15 @@ public:
     /// Mesh, MeshAccepted: makes our segment; message_bytes of shared memory hold one message of ours.
     void announce(message::Message& message, std::size_t message_bytes);
     /// Mesh, MeshAccepted: maps the peer's segment. Fault::protocol if its notice cannot be true.
-    void map_announced(message::Message const& message);
+    /// Returns the peer's mailbox in it, if the peer posts.
+    std::unique_ptr<transport::Postbox> map_announced(message::Message const& message);
 
     /// MeshAccepted, FluidState: says that we read the peer's segment.
     void confirm(message::Message& message) const;
     /// MeshAccepted, FluidState: if the peer reads our segment, `memory` packs into it from now on; otherwise it goes.
-    void use_if_confirmed(message::Message const& message, transport::SendMemory const& memory);
+    /// Returns the outbox in it, if the peer looks into it.
+    std::unique_ptr<transport::Outbox> use_if_confirmed(message::Message const& message,
+                                                        transport::SendMemory const& memory);
 
     /// Points the shared arrays of a message at the peer's segment. Fault::protocol if one lies outside.
     void attach(message::Message& message) const;
@@ -47,6 +51,7 @@ private:
 
     bool wanted_ = false;
     bool agreed_ = false;
+    bool has_mailbox_ = false;  ///< both sides post
     std::string note_;
     std::shared_ptr<transport::OwnSegment> announced_;  ///< ours, until the peer has answered
     std::shared_ptr<transport::Mapping const> peer_;

@@ -5,6 +5,8 @@
 #include <functional>
 #include <utility>
 
+#include "transport/Mailbox.hpp"
+
 namespace gimdem::coupling::transport
 {
 
@@ -17,13 +19,15 @@ struct SendMemory::Ring
     /// A multiple of the alignment [byte].
     std::size_t slot_bytes() const
     {
-        return segment->memory().bytes() / slot_count / shared_alignment * shared_alignment;
+        return (segment->memory().bytes() - mailbox_bytes) / slot_count / shared_alignment * shared_alignment;
     }
 
     /// The next free place in the slot, or null.
     unsigned char* place(std::size_t bytes)
     {
-        if (!segment || bytes < least_shared_bytes || bytes > slot_bytes() - used) return nullptr;
+        if (!segment || segment->memory().bytes() < mailbox_bytes || bytes < least_shared_bytes ||
+            bytes > slot_bytes() - used)
+            return nullptr;
         unsigned char* const begin = segment->memory().data() + slot * slot_bytes() + used;
         used = std::min(slot_bytes(), used + shared_bytes(bytes));
         return begin;
@@ -34,6 +38,11 @@ std::size_t shared_bytes(std::size_t array_bytes)
 {
     if (array_bytes < least_shared_bytes) return 0;
     return (array_bytes + shared_alignment - 1) / shared_alignment * shared_alignment;
+}
+
+std::size_t segment_bytes(std::size_t slot_bytes)
+{
+    return slot_count * slot_bytes + mailbox_bytes;
 }
 
 SendMemory::SendMemory() : ring_(std::make_shared<Ring>()) {}

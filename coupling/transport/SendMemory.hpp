@@ -14,7 +14,7 @@ namespace gimdem::coupling::transport
 {
 
 /// Arrays below this travel in frames: a frame of this size costs less than what it saves [byte].
-inline constexpr std::size_t least_shared_bytes = 16 << 10;
+inline constexpr std::size_t least_shared_bytes = 1 << 10;
 /// Messages that lie in a segment at a time, docs/protocol.md, Shared memory.
 inline constexpr std::size_t slot_count = 3;
 /// Arrays begin at multiples of this, a cache line [byte].
@@ -22,6 +22,8 @@ inline constexpr std::size_t shared_alignment = 64;
 
 /// Bytes of a slot that such an array takes; none if it goes as a frame.
 std::size_t shared_bytes(std::size_t array_bytes);
+/// Size of a segment whose slots hold so many bytes each: the slots, then the mailbox.
+std::size_t segment_bytes(std::size_t slot_bytes);
 
 /// A ring of slots in our shared segment once the peer reads it; before that, and for what does not fit, pooled frames.
 /// One message is packed at a time, by one thread. Copies share the memory.

@@ -40,6 +40,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
     app.add_option("--device", options.device,
                    "where the particles are computed: cuda, cpu, or auto: cuda if it is there")
         ->check(CLI::IsMember({"auto", "cuda", "cpu"}));
+    app.add_option("--restart", options.restart, "checkpoint to go on from");
     try
     {
         app.parse(argc, argv);

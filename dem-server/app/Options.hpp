@@ -19,6 +19,7 @@ struct Options
     std::optional<std::string> endpoint, schedule, device;
     std::optional<double> until;
     std::optional<int> threads;
+    std::optional<std::filesystem::path> restart;  ///< checkpoint to go on from
 };
 
 /// Empty when the program has nothing to do (help, version, wrong usage): exit_code tells the status.

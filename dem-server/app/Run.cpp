@@ -4,14 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <utility>
 
 #include "app/RunLog.hpp"
 #include "core/Error.hpp"
+#include "engine/Checkpoint.hpp"
 #include "engine/CoupledEngine.hpp"
+#include "engine/InletFlow.hpp"
 #include "engine/Settling.hpp"
 #include "engine/StartChecks.hpp"
+#include "engine/WallStartCheck.hpp"
 #include "gimdem/coupling/Server.hpp"
 #include "particles/Insertion.hpp"
 
@@ -90,6 +94,12 @@ void settle_or_load(Case const& settings, exec::Execution execution, WallGeometr
     read_state(file, "settled bed", system);
 }
 
+/// How far a particle's centre can be from a wall that it may soon touch [m].
+double reach_of(Case const& settings, ParticleState const& particles)
+{
+    return largest_radius(settings, particles) + settings.dem.skin * smallest_radius(settings, particles);
+}
+
 /// Everything after the mesh.
 class CoupledRun
 {
@@ -101,8 +111,8 @@ public:
           schedule_(client.schedule.value_or(terms_of(settings).schedule)),
           execution_(execution_for(settings, schedule_)),
           mesh_(take_mesh(server)),
-          walls_(mesh_, settings.walls.also, largest_radius(particles) + settings.dem.skin * smallest_radius(particles),
-                 settings.wall),
+          walls_(mesh_, settings.walls.also, reach_of(settings, particles), settings.wall),
+          inlets_(make_inlets(settings, materials)),
           system_(settings, execution_, materials, walls_, std::move(particles)),
           folder_(folder),
           log_(settings, folder, mesh_, system_, client, schedule_),
@@ -110,12 +120,18 @@ public:
     {
     }
 
-    void start()
+    void start(std::optional<std::filesystem::path> const& restart)
     {
-        settle_or_load(settings_, execution_, walls_, mesh_, system_, log_.progress());
-        Vec3 const up = upward(settings_);
-        log_.summary().add("settled_height", bed_height(system_.particles(), mesh_, up), "m");
-        log_.summary().add("settled_height_2z", 2 * centre_of_mass_height(system_.particles(), mesh_, up), "m");
+        if (restart)
+        {
+            system_.prepare();
+            start_ = at_ = read_checkpoint(*restart, settings_, inlets_, system_);
+            require_time_left(*restart, at_, settings_.run.until);
+            fmt::print(stderr, "gimdem-server: {} particles from {:.6g} s\n", system_.particles().count(), at_.time);
+        }
+        else
+            settle();
+        engine_.set_inlets(inlets_);
         engine_.map_initial_state();
         server_.accept_mesh(engine_.fields());
         if (!server_.shared_memory_note().empty())
@@ -126,13 +142,16 @@ public:
     {
         while (auto const fluid = server_.receive_fluid())
         {
+            if (at_.step == start_.step) check_start(fluid->step);
             double const output_time = log_.sample(*fluid, engine_);
             StepReport report = engine_.advance(fluid->step, fluid->fields);
             report.timings.output = output_time;
             if (interrupted()) server_.request_stop("interrupted by the user");
             server_.send_solid(engine_.fields(), report.timings);
             log_.record(*fluid, report, engine_);
-            time_ = fluid->step.time + fluid->step.dt;
+            double const before = at_.time;
+            at_ = {at_.step + 1, fluid->step.time + fluid->step.dt};
+            if (is_checkpoint_between(before, at_.time)) keep();
         }
     }
 
@@ -140,26 +159,60 @@ public:
     void finish()
     {
         log_.finish(server_.bytes());
-        write_state(folder_ / "particles_last.h5", "particles", system_, time_);
+        keep();
     }
 
 private:
+    void settle()
+    {
+        check_particles_against_walls(system_.particles(), walls_);
+        settle_or_load(settings_, execution_, walls_, mesh_, system_, log_.progress());
+        Vec3 const up = upward(settings_);
+        log_.summary().add("settled_height", bed_height(system_.particles(), mesh_, up), "m");
+        log_.summary().add("settled_height_2z", 2 * centre_of_mass_height(system_.particles(), mesh_, up), "m");
+    }
+
+    /// The fluid of a restarted run must begin where the particles are. A wrong pair is off by a step at least; names
+    /// of time folders are off by rounding.
+    void check_start(coupling::Step const& first) const
+    {
+        if (start_.step == 0 || std::abs(first.time - start_.time) < 0.1 * first.dt) return;
+        throw UserError(
+            fmt::format("the fluid begins at {:.9g} s, the checkpoint of the particles is at {:.9g} s (they must be of "
+                        "one time); start the client from its fields at {:.9g} s",
+                        first.time, start_.time, start_.time));
+    }
+
+    bool is_checkpoint_between(double before, double now) const
+    {
+        double const interval = settings_.output.checkpoint_interval;
+        auto const count = [=](double time) { return std::floor(time / interval + 1e-6); };
+        return interval > 0 && count(now) > count(before);
+    }
+
+    void keep()
+    {
+        write_checkpoint(checkpoint_file(folder_, at_), settings_, at_, inlets_, system_);
+        keep_newest_checkpoints(folder_);
+    }
+
     Case const& settings_;
     coupling::Server& server_;
     coupling::Schedule schedule_;
     exec::Execution execution_;
     PolyMesh mesh_;
     WallGeometry walls_;
+    std::vector<Inlet> inlets_;
     DemSystem system_;
     std::filesystem::path folder_;
     RunLog log_;
     CoupledEngine engine_;
-    double time_ = 0;
+    RunPoint start_, at_;  ///< in coupling steps
 };
 
 }  // namespace
 
-void run(Case const& settings, std::filesystem::path const& folder)
+void run(Case const& settings, std::filesystem::path const& folder, std::optional<std::filesystem::path> const& restart)
 {
     refuse_periodic_coupled_run(settings);
     std::filesystem::create_directories(folder);
@@ -168,6 +221,8 @@ void run(Case const& settings, std::filesystem::path const& folder)
     check_time_step(settings, materials, particles);
     check_overlaps(exec::make_execution(settings.dem.backend, settings.dem.threads), particles,
                    Domain::of(settings.domain));
+    // A mistake in the file of a wall is told before a client is waited for.
+    check_particles_against_walls(particles, WallGeometry(settings.wall, reach_of(settings, particles)));
 
     coupling::Server server({.endpoint = settings.coupling.endpoint,
                              .name = "gimdem-server " GIMDEM_VERSION,
@@ -178,9 +233,10 @@ void run(Case const& settings, std::filesystem::path const& folder)
     try
     {
         coupling::ClientInfo const client = server.wait_for_client(terms_of(settings));
+        heed_interrupts();
         fmt::print(stderr, "gimdem-server: {} connected\n", client.name);
         CoupledRun coupled(settings, folder, server, client, std::move(particles), materials);
-        coupled.start();
+        coupled.start(restart);
         try
         {
             coupled.couple();

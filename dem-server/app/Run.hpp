@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "core/Case.hpp"
 
@@ -9,9 +10,13 @@ namespace gimdem::app
 {
 
 /// A whole run: wait for a client, take its mesh, settle or load the bed, couple until the client says goodbye. Results
-/// go to `folder`. Throws UserError or coupling::CouplingError; the client is told why before either leaves.
-void run(Case const& settings, std::filesystem::path const& folder);
+/// and checkpoints go to `folder`. With `restart`, it goes on from that checkpoint instead of a bed. Throws UserError
+/// or coupling::CouplingError; the client is told why before either leaves.
+void run(Case const& settings, std::filesystem::path const& folder,
+         std::optional<std::filesystem::path> const& restart);
 
+/// From now on Ctrl-C asks for an orderly end; before, as while waiting for a client, it ends the process at once.
+void heed_interrupts();
 /// True once the user asked for the end (Ctrl-C).
 bool interrupted();
 

@@ -66,8 +66,7 @@ RunLog::RunLog(Case const& settings, std::filesystem::path folder, PolyMesh cons
       up_(upward(settings)),
       inlet_(named_patch(mesh, settings.output.inlet, "inlet")),
       outlet_(named_patch(mesh, settings.output.outlet, "outlet")),
-      frames_(folder_, mesh.topology()),
-      last_momentum_(momentum(system.particles()))
+      frames_(folder_, mesh.topology())
 {
     for (PlaneSettings const& plane : settings.output.planes)
         planes_.emplace_back(mesh, plane);
@@ -80,6 +79,7 @@ double RunLog::sample(coupling::FluidState const& fluid, CoupledEngine const& en
     {
         start_ = start;
         first_time_ = fluid.step.time;
+        last_momentum_ = momentum(system_.particles());
         open_series(fluid);
     }
     auto const due = [&](std::int64_t count, double interval)
@@ -147,7 +147,8 @@ void RunLog::open_series(coupling::FluidState const& fluid)
                                                                     {"momentum_rate", "N"},
                                                                     {"momentum_imbalance", "1"},
                                                                     {"volume_imbalance", "1"},
-                                                                    {"void_fraction_clips", "1"}})
+                                                                    {"void_fraction_clips", "1"},
+                                                                    {"particles", "1"}})
         columns.push_back({name, unit});
     for (coupling::Monitor const& m : fluid.monitors)
         columns.push_back({m.name, m.unit});
@@ -172,10 +173,11 @@ void RunLog::write_row(coupling::FluidState const& fluid, CoupledEngine const& e
         row.push_back(plane.mean(void_fraction, as_span(fluid.fields.void_fraction_gradient)));
     }
     auto const [least, most] = std::minmax_element(void_fraction.begin(), void_fraction.end());
-    row.insert(row.end(),
-               {*least, *most, fastest(particles), interval_.drag.dot(up_) / time, interval_.pressure.dot(up_) / time,
-                interval_.wall.dot(up_) / time, (now - last_momentum_).dot(up_) / time, interval_.momentum_imbalance,
-                interval_.volume_imbalance, static_cast<double>(interval_.clips)});
+    row.insert(
+        row.end(),
+        {*least, *most, fastest(particles), interval_.drag.dot(up_) / time, interval_.pressure.dot(up_) / time,
+         interval_.wall.dot(up_) / time, (now - last_momentum_).dot(up_) / time, interval_.momentum_imbalance,
+         interval_.volume_imbalance, static_cast<double>(interval_.clips), static_cast<double>(particles.count())});
     for (coupling::Monitor const& m : fluid.monitors)
         row.push_back(m.value);
     series_->append(row);
@@ -248,7 +250,17 @@ void RunLog::finish(double bytes)
     summary_.add("coupling_steps", static_cast<double>(steps_), "1");
     summary_.add("dem_steps", static_cast<double>(dem_steps_), "1");
     summary_.add("particles", static_cast<double>(system_.particles().count()), "1");
-    summary_.add("particles_lost", 0, "1");
+    Removed gone;
+    for (auto const& [cause, removed] : system_.removed())
+    {
+        gone.count += removed.count;
+        gone.mass += removed.mass;
+        std::string name = "removed " + cause;
+        std::replace(name.begin(), name.end(), ' ', '_');
+        summary_.add(name, static_cast<double>(removed.count), "1");
+    }
+    summary_.add("particles_removed", static_cast<double>(gone.count), "1");
+    summary_.add("mass_removed", gone.mass, "kg");
     summary_.add("mean_particle_diameter", mean_diameter(), "m");
     summary_.add("fluid_density", fluid_.density, "kg/m^3");
     summary_.add("fluid_viscosity", fluid_.viscosity, "Pa s");

@@ -30,6 +30,9 @@ public:
     {
     }
 
+    /// To be told anew whenever particles come or go.
+    void set_one_size(bool one_size) { one_size_ = one_size; }
+
     /// True where the list must carry rolling springs.
     bool has_rolling_springs() const { return model_.has_rolling_spring(); }
 

@@ -19,7 +19,7 @@ using Triple = std::array<double, 3>;
 struct RunSettings
 {
     double until = 0;                 ///< simulated time [s]
-    std::string client = "openfoam";  ///< who solves the fluid
+    std::string client = "openfoam";  ///< who solves the fluid; none: particles alone
     std::string grid;                 ///< chosen mesh variant, empty where the case has one mesh
     std::vector<std::string> grids;   ///< mesh variants on offer
 };
@@ -115,11 +115,24 @@ struct WallItemSettings
     std::optional<WallVibrationSettings> vibration;
 };
 
-/// [domain]
+/// [domain]: the box of a run without a fluid, and so without a mesh; and where space repeats itself
 struct DomainSettings
 {
-    std::array<bool, 3> periodic{false, false, false};  ///< along x, y, z
-    std::array<Triple, 2> box{};                        ///< corners; only periodic axes count [m]
+    std::array<Triple, 2> box{};                        ///< corners [m]
+    std::vector<std::string> open;                      ///< sides through which particles leave: xmin, xmax, ymin, ...
+    std::array<bool, 3> periodic{false, false, false};  ///< along x, y, z. Sides neither open nor periodic are walls
+};
+
+/// [insertion.sizes], [inlets.sizes]: how diameters are distributed, by number, theory.md (D.60)-(D.63)
+struct SizeSettings
+{
+    std::string distribution;            ///< uniform | normal | lognormal | discrete
+    double minimum = 0;                  ///< [m]
+    double maximum = 0;                  ///< [m]
+    double mean = 0;                     ///< before truncation [m]
+    double deviation = 0;                ///< before truncation [m]
+    std::vector<double> diameters;       ///< discrete [m]
+    std::vector<double> mass_fractions;  ///< discrete [1]
 };
 
 /// [[insertion]]
@@ -129,14 +142,33 @@ struct InsertionSettings
     double diameter = 0;                  ///< [m]; for "file" a default where the file has no radius column
     double mass = 0;                      ///< total [kg], 0: not given
     std::int64_t count = 0;               ///< 0: not given
-    std::string arrangement = "lattice";  ///< lattice | file
-    std::array<Triple, 2> box{};          ///< lattice: corners [m]
+    std::string arrangement = "lattice";  ///< lattice | file | random
+    std::array<Triple, 2> box{};          ///< lattice, random: corners [m]
     double spacing = 0;                   ///< lattice: distance of neighbours [m]
     double jitter = 0;                    ///< lattice: largest random displacement per axis [m]
     std::uint64_t seed = 1;
     Triple velocity{0, 0, 0};  ///< [m/s]
     /// file: CSV with the header x,y,z[,radius][,vx,vy,vz] [m, m/s]; relative to the case file, here absolute
     std::filesystem::path file;
+    std::optional<SizeSettings> sizes{};  ///< random: instead of one diameter
+};
+
+/// [[inlets]]: particles that come during the run
+struct InletSettings
+{
+    std::string material;
+    double diameter = 0;          ///< [m]; or sizes
+    double mass_rate = 0;         ///< [kg/s]
+    Triple velocity{0, 0, 0};     ///< [m/s]
+    std::array<Triple, 2> box{};  ///< region: a box [m] ...
+    Triple centre{0, 0, 0};       ///< ... or a disc: its centre [m],
+    Triple normal{0, 0, 0};       ///< the direction across it, of any length,
+    double radius = 0;            ///< and its radius [m]; 0: box
+    double start = 0;             ///< [s]
+    double end = 0;               ///< [s]; 0: never
+    double interval = 1e-3;       ///< at most, between two lots of particles [s]
+    std::uint64_t seed = 1;
+    std::optional<SizeSettings> sizes{};
 };
 
 /// [settle]
@@ -173,6 +205,7 @@ struct OutputSettings
 {
     double sample_interval = 1e-3;    ///< of the time series [s]
     double particle_interval = 1e-2;  ///< of the ParaView files [s]; 0: none
+    double checkpoint_interval = 0;   ///< of the checkpoints [s]; 0: none
     std::vector<PlaneSettings> planes;
     std::string inlet;  ///< patches between which the pressure drop is taken
     std::string outlet;
@@ -183,6 +216,7 @@ struct Case
 {
     std::filesystem::path file;  ///< case.toml
     std::string title;
+    std::string identity;  ///< the settings that decide how the particles move, as text: for checkpoints
     RunSettings run;
     CouplingSettings coupling;
     DemSettings dem;
@@ -192,6 +226,7 @@ struct Case
     std::vector<WallItemSettings> wall;
     DomainSettings domain;
     std::vector<InsertionSettings> insertion;
+    std::vector<InletSettings> inlets;
     std::optional<SettleSettings> settle;
     FluidForceSettings fluid_forces;
     MappingSettings mapping;

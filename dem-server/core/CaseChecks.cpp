@@ -107,13 +107,18 @@ void check_pairs_in_use(Case const& input, Document const& document)
                             "\" (particles of one can touch the other); add [[contacts]] with pair = " + to_text(pair) +
                             ", restitution = 0.9, friction = 0.3");
     };
-    for (auto const& first : input.insertion)
+    std::set<std::string> used;
+    for (auto const& insertion : input.insertion)
+        used.insert(insertion.material);
+    for (auto const& inlet : input.inlets)
+        used.insert(inlet.material);
+    for (auto const& first : used)
     {
-        require(first.material, input.walls.material);
+        require(first, input.walls.material);
         for (auto const& wall : input.wall)
-            if (!wall.material.empty()) require(first.material, wall.material);
-        for (auto const& second : input.insertion)
-            require(first.material, second.material);
+            if (!wall.material.empty()) require(first, wall.material);
+        for (auto const& second : used)
+            require(first, second);
     }
 }
 
@@ -127,13 +132,17 @@ void check_insertions(Case const& input, Document const& document)
     }
 }
 
-void check_domain(DomainSettings const& domain, Document const& document)
+void check_inlets(Case const& input, Document const& document)
 {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (domain.periodic[axis] && !(domain.box[1][axis] > domain.box[0][axis]))
-            throw UserError(document.at("domain.box") + ": box in [domain] is empty along " + "xyz"[axis] +
-                            " (that axis is periodic, the box tells its period); write e.g. box = [[0.0, 0.0, 0.0], "
-                            "[0.05, 0.05, 0.05]]");
+    if (input.insertion.empty() && input.inlets.empty())
+        throw UserError(document.file +
+                        ": [[insertion]] is missing (which particles there are at the start; or [[inlets]]: which "
+                        "come later); add [[insertion]] with material = \"bead\"");
+    for (std::size_t i = 0; i < input.inlets.size(); ++i)
+    {
+        check_material_exists(input.inlets[i].material, entry("inlets", i, "material"), input, document);
+        check_inlet(input.inlets[i], i, document);
+    }
 }
 
 void check_output(OutputSettings const& output, Document const& document)
@@ -169,8 +178,9 @@ void check_case(Case const& input, Document const& document)
         if (!input.wall[i].material.empty())
             check_material_exists(input.wall[i].material, entry("wall", i, "material"), input, document);
     check_walls(input, document);
-    check_domain(input.domain, document);
     check_insertions(input, document);
+    check_inlets(input, document);
+    check_domain(input, document);
     check_pairs_in_use(input, document);
     check_output(input.output, document);
 }

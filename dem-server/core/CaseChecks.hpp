@@ -36,6 +36,18 @@ void check_insertion(InsertionSettings const& insertion, std::size_t index, Docu
 /// no length.
 void check_walls(Case const& input, Document const& document);
 
+/// Throw UserError where [insertion.sizes] or [inlets.sizes], at `path`, is no distribution, or where not just one of
+/// it and `diameter` is given.
+void check_sizes(std::optional<SizeSettings> const& sizes, double diameter, std::string const& path,
+                 std::string const& list, Document const& document);
+
+/// Throw UserError where [[inlets]] number `index` has no region, or more than one.
+void check_inlet(InletSettings const& inlet, std::size_t index, Document const& document);
+
+/// Throw UserError where [domain] is empty, contradicts itself, is absent in a run without a fluid or has no effect in
+/// another, or where a run without a fluid has settings that it cannot have.
+void check_domain(Case const& input, Document const& document);
+
 /// Throw UserError where a [[contacts]] misses what the laws chosen in [dem] need, or has what they do not use.
 void check_contact_laws(Case const& input, Document const& document);
 

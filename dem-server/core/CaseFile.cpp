@@ -40,6 +40,19 @@ void resolve_paths(Case& input)
             wall.file = std::filesystem::absolute(input.file.parent_path() / wall.file);
 }
 
+/// What decides how the particles move: all but names, the other process, the machine, and what is written.
+std::string identity_of(toml::table root)
+{
+    for (auto const* const section : {"title", "run", "coupling", "output"})
+        root.erase(section);
+    if (auto* const dem = root["dem"].as_table())
+        for (auto const* const key : {"threads", "backend"})
+            dem->erase(key);
+    std::ostringstream text;
+    text << root;
+    return text.str();
+}
+
 }  // namespace
 
 Case parse_case(std::string const& text, std::filesystem::path const& file)
@@ -48,6 +61,7 @@ Case parse_case(std::string const& text, std::filesystem::path const& file)
     toml::table const root = parse_toml(text, name);
     Case input;
     input.file = file;
+    input.identity = identity_of(root);
 
     case_file::Setting const top;
     case_file::read({root, top, "", false, name}, input);

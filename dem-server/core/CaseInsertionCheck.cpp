@@ -24,15 +24,26 @@ public:
         require("box", "where the lattice is [m]", "[[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]");
         require("spacing", "distance of neighbours on the lattice [m]", "1.65e-3");
         refuse("file");
+        refuse("sizes");
         check_amount();
         check_box();
         check_overlap();
     }
 
+    void check_random() const
+    {
+        require("box", "where the particles are [m]", "[[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]");
+        for (auto const* key : {"file", "spacing", "jitter"})
+            refuse(key);
+        check_sizes(insertion_.sizes, insertion_.diameter, path("sizes"), "insertion", document_);
+        check_amount();
+        check_box();
+    }
+
     void check_file(std::filesystem::path const& file) const
     {
         require("file", "CSV with the positions", "\"positions.csv\"");
-        for (auto const* key : {"mass", "count", "box", "spacing", "jitter"})
+        for (auto const* key : {"mass", "count", "box", "spacing", "jitter", "sizes"})
             refuse(key);
         if (!std::filesystem::is_regular_file(file))
             throw UserError(at("file") + ": file " + file.string() +
@@ -104,6 +115,8 @@ void check_insertion(InsertionSettings const& insertion, std::size_t index, Docu
     InsertionCheck const check(insertion, index, document);
     if (insertion.arrangement == "file")
         check.check_file(insertion.file);
+    else if (insertion.arrangement == "random")
+        check.check_random();
     else
         check.check_lattice();
 }

@@ -206,6 +206,17 @@ void read(Node const& node, std::vector<std::string>& target)
         target.push_back(to_string(node, element));
 }
 
+void read(Node const& node, std::vector<double>& target)
+{
+    if (!node.value.is_array()) fail_type(node);
+    target.clear();
+    for (auto const& element : *node.value.as_array())
+    {
+        target.push_back(to_number(node, element));
+        check_rule(node, target.back());
+    }
+}
+
 void refuse_unknown_keys(Node const& section, toml::table const& table, std::vector<std::string> const& known)
 {
     for (auto const& [key, value] : table)

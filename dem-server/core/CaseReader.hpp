@@ -82,6 +82,7 @@ void read(Node const& node, std::array<std::array<double, 3>, 2>& target);
 void read(Node const& node, std::array<std::string, 2>& target);
 void read(Node const& node, std::array<bool, 3>& target);
 void read(Node const& node, std::vector<std::string>& target);
+void read(Node const& node, std::vector<double>& target);
 
 /// A setting together with the member of Section that it fills.
 template <class Section>

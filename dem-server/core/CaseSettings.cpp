@@ -24,8 +24,9 @@ Fields<Case> const& settings_of(Case const&)
         required("contacts",     &Case::contacts,     "how two materials touch"),
         required("walls",        &Case::walls,        "what bounds the particles"),
         optional("wall",         &Case::wall,         "a wall beside those of the mesh"),
-        optional("domain",       &Case::domain,       "where space repeats itself; no coupled run has it yet"),
-        required("insertion",    &Case::insertion,    "which particles there are at the start"),
+        optional("domain",       &Case::domain,       "the box of a run without a fluid, and where space repeats itself"),
+        optional("insertion",    &Case::insertion,    "which particles there are at the start"),
+        optional("inlets",       &Case::inlets,       "particles that come during the run"),
         optional("settle",       &Case::settle,       "particles fall and come to rest before the fluid starts"),
         optional("fluid_forces", &Case::fluid_forces, "what the fluid does to a particle"),
         optional("mapping",      &Case::mapping,      "how particles become fields on the fluid's mesh"),
@@ -39,7 +40,8 @@ Fields<RunSettings> const& settings_of(RunSettings const&)
     using S = RunSettings;
     static Fields<S> const fields = {
         required("until",  &S::until,  "s", above(0), "1.0", "time to simulate"),
-        optional("client", &S::client, "", one_of({"openfoam", "reference"}), "\"openfoam\"", "who solves the fluid"),
+        optional("client", &S::client, "", one_of({"openfoam", "reference", "none"}), "\"openfoam\"",
+                 "who solves the fluid; none: particles alone"),
         optional("grid",   &S::grid,   "", anything(), "\"B\"", "mesh variant to use, one of grids"),
         optional("grids",  &S::grids,  "", anything(), "[\"A\", \"B\"]", "mesh variants on offer"),
     };
@@ -137,10 +139,12 @@ Fields<DomainSettings> const& settings_of(DomainSettings const&)
 {
     using S = DomainSettings;
     static Fields<S> const fields = {
+        optional("box",      &S::box,      "m", anything(), "[[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]",
+                 "lower and upper corner; needed"),
+        optional("open",     &S::open,     "", anything(), "[\"zmax\"]",
+                 "sides through which particles leave, of xmin, xmax, ymin, ymax, zmin, zmax; the others are walls"),
         optional("periodic", &S::periodic, "", anything(), "[true, true, false]",
-                 "along x, y, z: what leaves the box on one side comes in on the other"),
-        optional("box",      &S::box,      "m", anything(), "[[0.0, 0.0, 0.0], [0.05, 0.05, 0.05]]",
-                 "lower and upper corner; only its periodic axes count"),
+                 "along x, y, z: what leaves the box on one side comes in on the other; no walls there"),
     };
     return fields;
 }
@@ -151,20 +155,62 @@ Fields<InsertionSettings> const& settings_of(InsertionSettings const&)
     static Fields<S> const fields = {
         required("material",    &S::material,    "", not_empty(), "\"bead\"", "what the particles are made of"),
         optional("diameter",    &S::diameter,    "m", above(0), "1.545e-3",
-                 "of each particle; needed unless the file has a column radius"),
+                 "of each particle; needed unless the file has a column radius or sizes are given"),
         optional("mass",        &S::mass,        "kg", above(0), "0.039", "of all particles together; or give count"),
         optional("count",       &S::count,       "", at_least(1), "17563", "number of particles; or give mass"),
-        optional("arrangement", &S::arrangement, "", one_of({"lattice", "file"}), "\"lattice\"",
-                 "lattice: on a cubic lattice in box; file: at the positions in file"),
+        optional("arrangement", &S::arrangement, "", one_of({"lattice", "file", "random"}), "\"lattice\"",
+                 "lattice: on a cubic lattice in box; file: at the positions in file; random: anywhere in box without "
+                 "overlap"),
         optional("box",         &S::box,         "m", anything(), "[[0.0, 0.0, 0.0], [0.09, 0.008, 0.5]]",
-                 "lower and upper corner of the lattice"),
+                 "lower and upper corner of the lattice, or of where random particles are"),
         optional("spacing",     &S::spacing,     "m", above(0), "1.65e-3", "distance of neighbours on the lattice"),
         optional("jitter",      &S::jitter,      "m", at_least(0), "2e-5",
                  "largest random displacement from the lattice along each axis"),
-        optional("seed",        &S::seed,        "", at_least(0), "1", "of the random displacements"),
+        optional("seed",        &S::seed,        "", at_least(0), "1", "of the random numbers"),
         optional("velocity",    &S::velocity,    "m/s", anything(), "[0.0, 0.0, 0.0]", "at the start"),
         optional("file",        &S::file,        "", anything(), "\"positions.csv\"",
                  "CSV with the header x,y,z[,radius][,vx,vy,vz] in SI units, beside the case file"),
+        optional("sizes",       &S::sizes,       "diameters of random particles, instead of one"),
+    };
+    return fields;
+}
+
+Fields<InletSettings> const& settings_of(InletSettings const&)
+{
+    using S = InletSettings;
+    static Fields<S> const fields = {
+        required("material",  &S::material,  "", not_empty(), "\"bead\"", "what the particles are made of"),
+        optional("diameter",  &S::diameter,  "m", above(0), "1.545e-3", "of each particle; or give sizes"),
+        required("mass_rate", &S::mass_rate, "kg/s", above(0), "0.01", "mean rate at which particles come"),
+        optional("velocity",  &S::velocity,  "m/s", anything(), "[0.0, 0.0, -1.0]", "with which they come"),
+        optional("box",       &S::box,       "m", anything(), "[[0.0, 0.0, 0.4], [0.09, 0.008, 0.41]]",
+                 "where they appear: lower and upper corner; or give centre, normal and radius of a disc"),
+        optional("centre",    &S::centre,    "m", anything(), "[0.045, 0.004, 0.4]", "of the disc"),
+        optional("normal",    &S::normal,    "", anything(), "[0.0, 0.0, 1.0]", "direction across the disc, of any length"),
+        optional("radius",    &S::radius,    "m", above(0), "0.003", "of the disc; all of a sphere's equator is in it"),
+        optional("start",     &S::start,     "s", at_least(0), "0.0", "time of the first particles"),
+        optional("end",       &S::end,       "s", above(0), "1.0", "no particles later"),
+        optional("interval",  &S::interval,  "s", above(0), "1e-3", "between two lots of particles"),
+        optional("seed",      &S::seed,      "", at_least(0), "1", "of the random numbers"),
+        optional("sizes",     &S::sizes,     "diameters, instead of one"),
+    };
+    return fields;
+}
+
+Fields<SizeSettings> const& settings_of(SizeSettings const&)
+{
+    using S = SizeSettings;
+    static Fields<S> const fields = {
+        required("distribution",   &S::distribution,   "", one_of({"uniform", "normal", "lognormal", "discrete"}),
+                 "\"uniform\"", "by number; discrete: a list with shares of the mass"),
+        optional("minimum",        &S::minimum,        "m", above(0), "1e-3", "smallest diameter"),
+        optional("maximum",        &S::maximum,        "m", above(0), "2e-3", "largest diameter"),
+        optional("mean",           &S::mean,           "m", above(0), "1.5e-3",
+                 "of the diameters, normal and lognormal, before they are cut to minimum and maximum"),
+        optional("deviation",      &S::deviation,      "m", above(0), "2e-4", "standard deviation, likewise"),
+        optional("diameters",      &S::diameters,      "m", above(0), "[1e-3, 2e-3]", "of the discrete sizes"),
+        optional("mass_fractions", &S::mass_fractions, "", above(0), "[0.4, 0.6]",
+                 "share of each discrete size in the mass; they add up to 1"),
     };
     return fields;
 }
@@ -223,6 +269,8 @@ Fields<OutputSettings> const& settings_of(OutputSettings const&)
         optional("sample_interval",   &S::sample_interval,   "s", above(0), "1e-3", "between rows of the time series"),
         optional("particle_interval", &S::particle_interval, "s", at_least(0), "1e-2",
                  "between ParaView files, 0: none"),
+        optional("checkpoint_interval", &S::checkpoint_interval, "s", at_least(0), "0.1",
+                 "between checkpoints, 0: one at the end; with OpenFOAM a multiple of writeInterval"),
         optional("planes",            &S::planes,            "over which pressure and void fraction are averaged"),
         optional("inlet",             &S::inlet,             "", not_empty(), "\"inlet\"",
                  "the pressure drop is taken from this patch"),

@@ -19,6 +19,7 @@ inline std::string type_of(std::array<std::array<double, 3>, 2> const&)     { re
 inline std::string type_of(std::array<std::string, 2> const&)               { return "an array of two texts"; }
 inline std::string type_of(std::array<bool, 3> const&)                      { return "an array of three, true or false"; }
 inline std::string type_of(std::vector<std::string> const&)                 { return "an array of texts"; }
+inline std::string type_of(std::vector<double> const&)                      { return "an array of numbers"; }
 // clang-format on
 
 /// The settings of a section without what reads them.

@@ -55,5 +55,9 @@ inline std::string to_text(std::vector<std::string> const& values)
 {
     return list_to_text(values);
 }
+inline std::string to_text(std::vector<double> const& values)
+{
+    return list_to_text(values);
+}
 
 }  // namespace gimdem::case_file

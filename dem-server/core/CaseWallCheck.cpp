@@ -17,8 +17,8 @@ namespace
 class WallCheck
 {
 public:
-    WallCheck(WallItemSettings const& wall, std::size_t index, Document const& document)
-        : wall_(wall), index_(index), document_(document)
+    WallCheck(Case const& input, std::size_t index, Document const& document)
+        : wall_(input.wall[index]), domain_(input.domain), index_(index), document_(document)
     {
     }
 
@@ -37,6 +37,12 @@ private:
         require("point", "a point of the plane [m]", "[0.0, 0.0, 0.0]");
         require("normal", "direction towards the particles", "[0.0, 0.0, 1.0]");
         require_length("normal", wall_.normal);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (domain_.periodic[axis] && wall_.normal[axis] != 0)
+                throw UserError(
+                    at("normal") + ": \"normal\"" + of_wall() + " has a part along " + "xyz"[axis] +
+                    ", where [domain] is periodic (an infinite plane would end at the border); use stl for a "
+                    "wall within the box, or leave that axis out of periodic");
         refuse({"axis", "radius", "length", "inside", "file", "scale", "open"});
     }
 
@@ -87,6 +93,7 @@ private:
     }
 
     WallItemSettings const& wall_;
+    DomainSettings const& domain_;
     std::size_t index_;
     Document const& document_;
 };
@@ -101,7 +108,7 @@ void check_walls(Case const& input, Document const& document)
         if (!seen.insert(input.wall[i].name).second)
             throw UserError(document.at(entry("wall", i, "name")) + ": wall \"" + input.wall[i].name +
                             "\" is defined twice (a name stands for one wall); rename one");
-        WallCheck(input.wall[i], i, document).check();
+        WallCheck(input, i, document).check();
     }
 }
 

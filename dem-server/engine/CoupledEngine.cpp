@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/Error.hpp"
+#include "engine/InletFlow.hpp"
 #include "exec/Reduce.hpp"
 
 namespace gimdem
@@ -71,25 +71,23 @@ void CoupledEngine::load_fluid(coupling::FluidFields const& fluid)
         forces_.load(fluid, mesh_.cell_count());
 }
 
-void CoupledEngine::sum_into_cells()
+// Where some have left, the host's mapper finds out through which faces.
+void CoupledEngine::locate()
 {
-    if (DeviceDem* const device = system_.device())
-    {
-        if (!device->locate()) refuse_particle_outside();
-        return device->sum_into_cells(sums_);
-    }
-    mapper_.locate(system_.particles(), wall_faces_);
-    mapper_.compute_weights(system_.particles());
-    mapper_.sum_into_cells(system_.particles(), system_.impulses(), sums_);
+    DeviceDem* const device = system_.device();
+    if (device == nullptr) return mapper_.locate(std::as_const(system_).particles(), wall_faces_);
+    exec::Buffer<std::int32_t> cells;
+    bool const all_are_inside = device->locate();
+    if (!all_are_inside) device->download_cells(cells);
+    mapper_.take_cells(std::move(cells));
+    if (!all_are_inside) mapper_.locate(std::as_const(system_).particles(), wall_faces_);
 }
 
-// The host's mapper finds and names it; it looks from nearby, as it does for the first mapping.
-void CoupledEngine::refuse_particle_outside()
+void CoupledEngine::sum_into_cells()
 {
-    mapper_.locate(std::as_const(system_).particles(), wall_faces_);
-    throw UserError(
-        "a particle is outside the mesh (its void fraction has no cell); check the insertion box, [walls] "
-        "also, the height of the mesh, and the time step");
+    if (DeviceDem* const device = system_.device()) return device->sum_into_cells(sums_);
+    mapper_.compute_weights(system_.particles());
+    mapper_.sum_into_cells(system_.particles(), system_.impulses(), sums_);
 }
 
 std::int64_t CoupledEngine::particle_clips() const
@@ -105,6 +103,8 @@ StepReport CoupledEngine::map_initial_state()
     coupling::FluidFields fluid;
     fluid.velocity = still;
     load_fluid(fluid);
+    locate();
+    if (!mapper_.left().empty()) Mapper::refuse_outside(system_.particles(), mapper_.left().front().particle);
     sum_into_cells();
     compute_void_fraction(report);
 
@@ -121,6 +121,7 @@ StepReport CoupledEngine::advance(coupling::Step const& step, coupling::FluidFie
     auto const start = std::chrono::steady_clock::now();
     report.dem_steps = std::max<std::int64_t>(1, std::llround(std::ceil(step.dt / settings_.dem.time_step - 1e-9)));
     load_fluid(fluid);
+    insert_due(step.time);
     system_.begin_coupling_step(&on_particles_);
     system_.let_walls_move(true);
     report.pressure_force = constant(system_.steady_fluid_force());
@@ -130,8 +131,38 @@ StepReport CoupledEngine::advance(coupling::Step const& step, coupling::FluidFie
 
     auto const mapping_start = std::chrono::steady_clock::now();
     map_particles(step.dt, fluid, report);
+    report.removed = remove_leavers();
     report.timings.mapping = seconds_since(mapping_start);
     return report;
+}
+
+void CoupledEngine::insert_due(double time)
+{
+    if (inlets_ == nullptr || insert_from(*inlets_, time, system_) == 0) return;
+    locate();
+    if (!mapper_.left().empty()) Mapper::refuse_outside(system_.particles(), mapper_.left().front().particle);
+}
+
+// What they received in their last step is on the mesh by now, so that nothing of the balance is lost, theory.md
+// (D.67).
+std::int64_t CoupledEngine::remove_leavers()
+{
+    if (mapper_.left().empty()) return 0;
+    auto const& patches = mesh_.topology().patches;
+    std::vector<std::string> causes;
+    for (coupling::Patch const& patch : patches)
+        causes.push_back("through " + patch.name);
+    std::vector<std::int32_t> cause(static_cast<std::size_t>(system_.particles().count()), -1);
+    for (Mapper::Leaver const& leaver : mapper_.left())
+        for (std::size_t k = 0; k < patches.size(); ++k)
+        {
+            if (leaver.face < patches[k].start_face || leaver.face >= patches[k].start_face + patches[k].face_count)
+                continue;
+            if (patches[k].kind != coupling::PatchKind::open)
+                Mapper::refuse_outside(system_.particles(), leaver.particle);
+            cause[static_cast<std::size_t>(leaver.particle)] = static_cast<std::int32_t>(k);
+        }
+    return system_.remove(cause, causes);
 }
 
 coupling::SolidFields CoupledEngine::fields() const
@@ -148,6 +179,7 @@ coupling::SolidFields CoupledEngine::fields() const
 
 void CoupledEngine::map_particles(double dt, coupling::FluidFields const& fluid, StepReport& report)
 {
+    locate();
     sum_into_cells();
     compute_void_fraction(report);
     compute_momentum_exchange(dt, fluid);

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/Case.hpp"
 #include "engine/DemSystem.hpp"
 #include "engine/device/DeviceDem.hpp"
 #include "gimdem/coupling/Types.hpp"
 #include "mapping/Mapper.hpp"
+#include "particles/Inlet.hpp"
 
 namespace gimdem
 {
@@ -17,6 +19,7 @@ namespace gimdem
 struct StepReport
 {
     std::int64_t dem_steps = 0;
+    std::int64_t removed = 0;       ///< particles that left the mesh in this step; mapped a last time, then removed
     double momentum_imbalance = 0;  ///< |sum S V + sum F_d| / sum |F_d|, theory.md (C.3) [1]
     double volume_imbalance = 0;    ///< |sum solid V - sum V_p| / sum V_p [1]
     std::int64_t cell_clips = 0;    ///< cells whose void fraction was raised to the minimum
@@ -44,18 +47,23 @@ public:
     /// The solid of the last step; spans live until the next one.
     coupling::SolidFields fields() const;
 
+    /// Particles that come during the run; `inlets` outlives the engine.
+    void set_inlets(std::vector<Inlet>& inlets) { inlets_ = &inlets; }
+
     std::int64_t particle_clips() const;
     exec::Buffer<double> const& void_fraction() const { return void_fraction_; }
 
 private:
     void load_fluid(coupling::FluidFields const& fluid);
+    void locate();
     void sum_into_cells();
-    [[noreturn]] void refuse_particle_outside();
     ImpulseSums impulse_sums() const;
     void map_particles(double dt, coupling::FluidFields const& fluid, StepReport& report);
     void compute_void_fraction(StepReport& report);
     void compute_momentum_exchange(double dt, coupling::FluidFields const& fluid);
     void check_balance(double dt, StepReport& report) const;
+    void insert_due(double time);
+    std::int64_t remove_leavers();
 
     Case const& settings_;
     exec::Execution execution_;
@@ -65,6 +73,7 @@ private:
     Mapper mapper_;
     FluidOnParticles on_particles_;
     exec::Buffer<std::uint8_t> wall_faces_;
+    std::vector<Inlet>* inlets_ = nullptr;
     CellSums sums_;
     exec::Buffer<double> void_fraction_, momentum_source_, drag_coefficient_, drag_momentum_;
 };

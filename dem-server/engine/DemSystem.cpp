@@ -8,6 +8,7 @@
 #include "engine/device/DeviceDem.hpp"
 #include "exec/ForEach.hpp"
 #include "integrate/VelocityVerlet.hpp"
+#include "particles/SizeDistribution.hpp"
 
 namespace gimdem
 {
@@ -17,10 +18,12 @@ DemSystem::DemSystem(Case const& settings, exec::Execution execution, Materials 
     : execution_(execution),
       gravity_{settings.dem.gravity[0], settings.dem.gravity[1], settings.dem.gravity[2]},
       particles_(std::move(particles)),
-      search_(execution, settings.dem.skin * smallest_radius(particles_), Domain::of(settings.domain)),
+      search_(execution, settings.dem.skin * smallest_radius(settings, particles_), Domain::of(settings.domain)),
       particle_contacts_(execution, materials, have_one_size(particles_), Domain::of(settings.domain)),
       wall_contacts_(execution, materials, materials.number_of(settings.walls.material), walls)
 {
+    for (std::int64_t const id : particles_.id.host())
+        next_id_ = std::max(next_id_, id + 1);
     neighbors_.carries_rolling = particle_contacts_.has_rolling_springs();
     impulses_.resize(particles_.count());
     impulses_.fill({});
@@ -177,6 +180,25 @@ double largest_radius(ParticleState const& particles)
     double radius = 0;
     for (Quad const& x : particles.position.host())
         radius = std::max(radius, x.w);
+    return radius;
+}
+
+double smallest_radius(Case const& settings, ParticleState const& particles)
+{
+    double radius = smallest_radius(particles);
+    for (InletSettings const& inlet : settings.inlets)
+    {
+        double const least = SizeDistribution(inlet.diameter, inlet.sizes).smallest() / 2;
+        radius = radius > 0 ? std::min(radius, least) : least;
+    }
+    return radius;
+}
+
+double largest_radius(Case const& settings, ParticleState const& particles)
+{
+    double radius = largest_radius(particles);
+    for (InletSettings const& inlet : settings.inlets)
+        radius = std::max(radius, SizeDistribution(inlet.diameter, inlet.sizes).largest() / 2);
     return radius;
 }
 

@@ -4,9 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "contact/ParticleContacts.hpp"
 #include "core/Case.hpp"
@@ -29,6 +32,14 @@ struct FluidOnParticles
     exec::Buffer<std::int32_t> const& cell_of;
     exec::Buffer<double> const& void_fraction;
 };
+
+/// Particles that left, by cause.
+struct Removed
+{
+    std::int64_t count = 0;
+    double mass = 0;  ///< [kg]
+};
+using RemovedByCause = std::map<std::string, Removed>;
 
 class DeviceDem;
 
@@ -59,6 +70,27 @@ public:
     /// Whether prescribed wall motion goes on with the steps; until told so walls stand where they are at time 0.
     void let_walls_move(bool move) { walls_move_ = move; }
 
+    /// Adds particles at the end and gives them ids that none had before. Forces are those at the present positions
+    /// afterwards, as after prepare().
+    void insert(ParticleState const& more);
+
+    /// Removes the particles i with cause[i] >= 0 and counts them under causes[cause[i]]. Forces are those at the
+    /// present positions afterwards. Returns how many were removed.
+    std::int64_t remove(std::span<std::int32_t const> cause, std::vector<std::string> const& causes);
+
+    /// Builds the neighbour list anew and computes the forces at the present positions.
+    void rebuild();
+
+    /// After particles(), and of neighbors() and walls().pairs() the places where the list was built, the rows and the
+    /// springs were replaced by those of a state: builds the same list, and goes on from it as the state would have,
+    /// to the bit. `wall_force`: what total_force() of the walls was [N].
+    void resume(Vec3 const& wall_force);
+
+    RemovedByCause& removed() { return removed_; }
+    RemovedByCause const& removed() const { return removed_; }
+    std::int64_t next_id() const { return next_id_; }
+    void set_next_id(std::int64_t id) { next_id_ = id; }
+
     ParticleState& particles() { return to_change(), particles_; }
     ParticleState const& particles() const { return to_look(), particles_; }
     NeighborList& neighbors() { return to_change(), neighbors_; }
@@ -73,8 +105,9 @@ public:
     /// The device that the particles are on, up to date; null where they are on the host.
     DeviceDem* device();
 
-    /// Particles change places when the neighbour list is rebuilt: `listener` is told order, with the particle now at i
-    /// having been at order[i]. For whoever else holds data per particle.
+    /// Particles change places when the neighbour list is rebuilt, and numbers when some are added or removed:
+    /// `listener` is told order, with the particle now at i having been at order[i]; order[i] beyond the old count is a
+    /// new particle. For whoever else holds data per particle.
     void set_permutation_listener(std::function<void(std::span<std::int32_t const>)> listener)
     {
         on_permutation_ = std::move(listener);
@@ -104,6 +137,8 @@ private:
     Vec3 wall_impulse_ = Vec3::Zero();
     std::function<void(std::span<std::int32_t const>)> on_permutation_;
     std::int64_t rebuilds_ = 0;
+    std::int64_t next_id_ = 0;
+    RemovedByCause removed_;
     std::unique_ptr<DeviceDem> device_;  ///< null: all is on the host
     bool device_is_old_ = true;          ///< the host has what the device has not
     mutable bool host_is_old_ = false;   ///< the other way round
@@ -115,5 +150,9 @@ bool have_one_size(ParticleState const& particles);
 /// Smallest radius of a set of particles [m]; 0 for none.
 double smallest_radius(ParticleState const& particles);
 double largest_radius(ParticleState const& particles);
+
+/// The same of the particles that there are at the start and all that inlets bring [m].
+double smallest_radius(Case const& settings, ParticleState const& particles);
+double largest_radius(Case const& settings, ParticleState const& particles);
 
 }  // namespace gimdem

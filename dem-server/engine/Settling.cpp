@@ -8,9 +8,12 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <vector>
 
+#include "core/CaseText.hpp"
 #include "core/Error.hpp"
+#include "engine/StateFile.hpp"
 #include "exec/Reduce.hpp"
 #include "output/Snapshot.hpp"
 
@@ -20,29 +23,10 @@ namespace gimdem
 namespace
 {
 
-std::span<double const> numbers(exec::Buffer<Quad> const& quads)
-{
-    if (quads.size() == 0) return {};
-    return {&quads.host().data()->x, 4 * static_cast<std::size_t>(quads.size())};
-}
-
-template <class T>
-void read_into(std::vector<T> const& values, exec::Buffer<T>& to)
-{
-    to.resize(static_cast<std::int64_t>(values.size()));
-    std::copy(values.begin(), values.end(), to.host().begin());
-}
-
-void read_into(std::vector<double> const& values, exec::Buffer<Quad>& to)
-{
-    to.resize(static_cast<std::int64_t>(values.size() / 4));
-    if (!values.empty()) std::copy(values.begin(), values.end(), &to.host().data()->x);
-}
-
 /// Everything that decides what a settled bed looks like.
 std::string description(Case const& settings)
 {
-    std::string text = "settled bed 1\n";
+    std::string text = "settled bed 2\n";
     auto const add = [&](auto const&... values) { ((text += fmt::format("{} ", values)), ...); };
     auto const add_triple = [&](Triple const& t) { add(t[0], t[1], t[2]); };
     add(settings.dem.time_step);
@@ -58,6 +42,9 @@ std::string description(Case const& settings)
         add_triple(i.box[0]);
         add_triple(i.box[1]);
         add_triple(i.velocity);
+        if (!i.sizes) continue;
+        add(i.sizes->distribution, i.sizes->minimum, i.sizes->maximum, i.sizes->mean, i.sizes->deviation);
+        add(case_file::to_text(i.sizes->diameters), case_file::to_text(i.sizes->mass_fractions));
     }
     DemSettings const& laws = settings.dem;
     if (laws.contact_law != "hertz-mindlin" || laws.rolling_friction != "none" || laws.cohesion != "none")
@@ -132,29 +119,10 @@ std::filesystem::path settled_bed_file(Case const& settings, WallGeometry const&
 
 void write_state(std::filesystem::path const& file, std::string const& kind, DemSystem const& system, double time)
 {
-    ParticleState const& p = system.particles();
-    NeighborList const& pairs = system.neighbors();
-    WallPairs const& walls = system.walls().pairs();
     std::filesystem::create_directories(file.parent_path());
     output::SnapshotWriter writer(file, kind);
     writer.set("time", time);
-    writer.set("wall_time", system.walls().time());
-    writer.add("position", numbers(p.position), 4);
-    writer.add("velocity", numbers(p.velocity), 4);
-    writer.add("angular_velocity", numbers(p.angular_velocity), 4);
-    writer.add("material", p.material.host());
-    writer.add("id", p.id.host());
-    writer.add("pair_offsets", pairs.row_offsets.host());
-    writer.add("pair_second", pairs.second.host());
-    writer.add("pair_spring", numbers(pairs.displacement), 4);
-    if (pairs.carries_rolling)
-    {
-        writer.add("pair_rolling_spring", numbers(pairs.rolling_spring), 4);
-        writer.add("wall_rolling_spring", numbers(walls.rolling_spring), 4);
-    }
-    writer.add("wall_offsets", walls.offsets.host());
-    writer.add("wall_plane", walls.plane.host());
-    writer.add("wall_spring", numbers(walls.displacement), 4);
+    add_state(writer, system);
     writer.commit();
 }
 
@@ -162,32 +130,10 @@ void read_state(std::filesystem::path const& file, std::string const& kind, DemS
 {
     output::SnapshotReader const reader(file, kind);
     auto const ids = reader.int64s("id");
-    ParticleState& p = system.particles();
-    if (static_cast<std::int64_t>(ids.size()) != p.count())
+    if (std::ssize(ids) != system.particles().count())
         throw UserError(fmt::format("{} holds {} particles, the case has {}; delete the file to make it anew",
-                                    file.string(), ids.size(), p.count()));
-    read_into(reader.doubles("position"), p.position);
-    read_into(reader.doubles("velocity"), p.velocity);
-    read_into(reader.doubles("angular_velocity"), p.angular_velocity);
-    read_into(reader.int32s("material"), p.material);
-    read_into(ids, p.id);
-
-    NeighborList& pairs = system.neighbors();
-    read_into(reader.int32s("pair_offsets"), pairs.row_offsets);
-    read_into(reader.int32s("pair_second"), pairs.second);
-    read_into(reader.doubles("pair_spring"), pairs.displacement);
-    pairs.built_at.resize(0);  // stale: the next step builds a list and carries the springs over
-    system.walls().move_to(reader.has("wall_time") ? reader.number("wall_time") : 0);
-    WallPairs& walls = system.walls().pairs();
-    read_into(reader.int32s("wall_offsets"), walls.offsets);
-    read_into(reader.int32s("wall_plane"), walls.plane);
-    read_into(reader.doubles("wall_spring"), walls.displacement);
-    if (pairs.carries_rolling)
-    {
-        read_into(reader.doubles("pair_rolling_spring"), pairs.rolling_spring);
-        read_into(reader.doubles("wall_rolling_spring"), walls.rolling_spring);
-    }
-    system.prepare();
+                                    file.string(), ids.size(), system.particles().count()));
+    take_state(reader, std::numeric_limits<int>::max(), system);
 }
 
 }  // namespace gimdem

@@ -9,6 +9,7 @@
 
 #include "contact/LinearSpringDashpot.hpp"
 #include "core/Error.hpp"
+#include "particles/SizeDistribution.hpp"
 #include "search/NeighborList.hpp"
 
 namespace gimdem
@@ -31,6 +32,13 @@ double shortest_linear_contact(Case const& settings, Materials const& materials,
         double& mass = lightest[static_cast<std::size_t>(particles.material[p])];
         mass = std::min(mass, 1 / particles.velocity[p].w);
     }
+    for (InletSettings const& inlet : settings.inlets)
+    {
+        int const material = materials.number_of(inlet.material);
+        double const radius = SizeDistribution(inlet.diameter, inlet.sizes).smallest() / 2;
+        double& mass = lightest[static_cast<std::size_t>(material)];
+        mass = std::min(mass, materials[material].density * sphere_volume(radius));
+    }
     double shortest = none;
     auto const meet = [&](int a, int b, double inverse_mass)
     {
@@ -38,12 +46,15 @@ double shortest_linear_contact(Case const& settings, Materials const& materials,
         if (pair != nullptr && inverse_mass > 0)
             shortest = std::min(shortest, LinearSpringDashpot::duration(pair->normal_stiffness, 1 / inverse_mass));
     };
-    int const wall = materials.number_of(settings.walls.material);
+    std::vector<int> wall_materials{materials.number_of(settings.walls.material)};
+    for (WallItemSettings const& wall : settings.wall)
+        if (!wall.material.empty()) wall_materials.push_back(materials.number_of(wall.material));
     for (int a = 0; a < materials.count(); ++a)
     {
         double const mass_a = lightest[static_cast<std::size_t>(a)];
         if (mass_a == none) continue;
-        meet(a, wall, 1 / mass_a);
+        for (int const wall : wall_materials)
+            meet(a, wall, 1 / mass_a);
         for (int b = 0; b <= a; ++b)
             if (lightest[static_cast<std::size_t>(b)] != none)
                 meet(a, b, 1 / mass_a + 1 / lightest[static_cast<std::size_t>(b)]);
@@ -71,7 +82,11 @@ void check_time_step(Case const& settings, Materials const& materials, ParticleS
 {
     if (settings.dem.contact_law == LinearSpringDashpot::name)
         return check_against_linear_contact(settings, shortest_linear_contact(settings, materials, particles));
-    double const rayleigh = shortest_rayleigh_time(materials, particles);
+    double rayleigh = shortest_rayleigh_time(materials, particles);
+    for (InletSettings const& inlet : settings.inlets)
+        rayleigh =
+            std::min(rayleigh, materials.rayleigh_time(materials.number_of(inlet.material),
+                                                       SizeDistribution(inlet.diameter, inlet.sizes).smallest() / 2));
     double const share = settings.dem.time_step / rayleigh;
     if (share <= rayleigh_share_limit) return;
     throw UserError(fmt::format(

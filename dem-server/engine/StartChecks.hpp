@@ -21,8 +21,8 @@ double shortest_rayleigh_time(Materials const& materials, ParticleState const& p
 /// advice.
 inline constexpr double contact_share_limit = 0.1;
 
-/// Shortest contact of any two of these particles, or of one and a wall, with the linear law [s], theory.md (D.31);
-/// infinity for none.
+/// Shortest contact of any two of these particles and those of inlets, or of one and a wall, with the linear law [s],
+/// theory.md (D.31); infinity for none.
 double shortest_linear_contact(Case const& settings, Materials const& materials, ParticleState const& particles);
 
 /// Throws UserError where [dem] time_step is above 20 % of the shortest Rayleigh time or, with the linear contact law,

@@ -107,9 +107,10 @@ void Mapper::locate(ParticleState const& particles, exec::Buffer<std::uint8_t> c
     if (cell_of_.size() != n)
     {
         cell_of_.resize(n);
-        for (std::int64_t p = 0; p < n; ++p)
-            cell_of_[p] = start_cells_.near(particles.position[p].xyz());
+        cell_of_.fill(-1);
     }
+    for (std::int64_t p = 0; p < n; ++p)
+        if (cell_of_[p] < 0) cell_of_[p] = start_cells_.near(particles.position[p].xyz());
     exec::Buffer<std::uint8_t> status(n);
     LocateKernel const kernel{{mesh_.view()},
                               particles.position.view().data,
@@ -117,17 +118,25 @@ void Mapper::locate(ParticleState const& particles, exec::Buffer<std::uint8_t> c
                               cell_of_.view().data,
                               status.view().data};
     exec::for_each(execution_, n, kernel);
+    left_.clear();
     for (std::int64_t p = 0; p < n; ++p)
     {
-        if (status[p] == 0) continue;
-        Vec3 const x = particles.position[p].xyz();
-        throw UserError(
-            fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m is outside the mesh (its void fraction has "
-                        "no cell); it left through an open patch or sank into a wall: check the insertion "
-                        "box, [walls] also, the height of the mesh, and the time step",
-                        particles.id[p], x.x(), x.y(), x.z()));
+        if (status[p] == 2) refuse_outside(particles, p);
+        if (status[p] == 1)
+            left_.push_back({static_cast<std::int32_t>(p),
+                             CellWalker{mesh_.view()}(cell_of_[p], particles.position[p].xyz()).face});
     }
     exec::group_by_key(execution_, cell_of_.host(), mesh_.cell_count(), by_cell_);
+}
+
+void Mapper::refuse_outside(ParticleState const& particles, std::int64_t particle)
+{
+    Vec3 const x = particles.position[particle].xyz();
+    throw UserError(
+        fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m is outside the mesh (its void fraction has "
+                    "no cell); it starts beyond an open patch or sank into a wall: check the insertion "
+                    "box, [walls] also, the height of the mesh, and the time step",
+                    particles.id[particle], x.x(), x.y(), x.z()));
 }
 
 // Consecutive rows for the particles of a cell, cell after cell.
@@ -191,7 +200,13 @@ void Mapper::sum_into_cells(ParticleState const& particles, exec::Buffer<Impulse
 
 void Mapper::permute(std::span<std::int32_t const> order)
 {
-    if (cell_of_.size() == static_cast<std::int64_t>(order.size())) gimdem::permute(cell_of_, order);
+    std::int64_t const before = cell_of_.size(), after = std::ssize(order);
+    if (before == 0) return;
+    if (after > before) cell_of_.resize(after);
+    for (std::int64_t p = before; p < after; ++p)
+        cell_of_[p] = -1;  // new: to be located from scratch
+    gimdem::permute(cell_of_, order);
+    cell_of_.resize(after);
 }
 
 }  // namespace gimdem

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "exec/Buffer.hpp"
 #include "exec/Execution.hpp"
@@ -48,8 +49,9 @@ public:
     Mapper(exec::Execution execution, PolyMesh const& mesh);
 
     /// Finds the cell of every particle, walking from the last one. `wall_faces`: shape=(n_faces,), 1 where a face
-    /// stops particles. Throws UserError, naming the particle and the place, for one that left the mesh through an open
-    /// patch or sank deeper into a wall than its radius.
+    /// stops particles. One that left the mesh through an open patch belongs to the last cell before it and is in
+    /// left(). Throws UserError, naming the particle and the place, for one that sank deeper into a wall than its
+    /// radius.
     void locate(ParticleState const& particles, exec::Buffer<std::uint8_t> const& wall_faces);
 
     /// Weights of every particle by the Gaussian Integral Method with Eq. 27, both layers: from tables where the scene
@@ -59,8 +61,25 @@ public:
     /// Sums volumes and impulses into cells.
     void sum_into_cells(ParticleState const& particles, exec::Buffer<Impulse> const& impulses, CellSums& sums);
 
-    /// Particles changed places: the particle now at i was at order[i].
+    /// Particles changed places or number: the particle now at i was at order[i], or is new.
     void permute(std::span<std::int32_t const> order);
+
+    /// Particles that the last locate() found outside of the mesh, beyond the boundary face `face`.
+    struct Leaver
+    {
+        std::int32_t particle, face;
+    };
+    std::vector<Leaver> const& left() const { return left_; }
+
+    /// For whoever locates elsewhere: none left so far, and a search starts from these cells; none: from scratch.
+    void take_cells(exec::Buffer<std::int32_t> cells)
+    {
+        cell_of_ = std::move(cells);
+        left_.clear();
+    }
+
+    /// Throws UserError, naming the particle and the place: for a particle that must not be outside of the mesh.
+    [[noreturn]] static void refuse_outside(ParticleState const& particles, std::int64_t particle);
 
     exec::Buffer<std::int32_t> const& cell_of() const { return cell_of_; }
     /// A row for each particle, cell after cell and in rising order within a cell: weights on layers() of its cell.
@@ -87,6 +106,7 @@ private:
     exec::Buffer<std::int32_t> reverse_slot_;
     exec::Buffer<std::int32_t> cell_of_;
     exec::Groups by_cell_;
+    std::vector<Leaver> left_;
     exec::Buffer<std::int32_t> occupied_;  ///< cells that hold particles
     exec::Buffer<std::int64_t> first_weight_;
     exec::Buffer<double> weights_;

@@ -48,7 +48,8 @@ std::string text_of(ProgressSample const& sample, double wall_seconds, double si
     std::string line = formatted("t = %.4f of %g s", sample.time, sample.until);
     if (simulated > 0) line += "  left " + duration_text((sample.until - sample.time) * wall_per_simulated);
     line += part("DEM %.1f ms", sample.dem_ms) + part("CFD %.1f ms", sample.cfd_ms);
-    line += part("void fraction %.3f", sample.void_fraction_min) + formatted("..%.3f", sample.void_fraction_max);
+    line += part("void fraction %.3f", sample.void_fraction_min);
+    if (!std::isnan(sample.void_fraction_max)) line += formatted("..%.3f", sample.void_fraction_max);
     line += part("Co %.2f", sample.courant) + part("fastest %.2f m/s", sample.speed_max);
     return line + part("%.3g s per simulated s", wall_per_simulated);
 }

@@ -62,7 +62,9 @@ std::string make_seal(int version, std::string const& kind, std::span<std::byte 
 void check_seal(std::span<std::byte const> bytes, int version, std::string const& kind,
                 std::filesystem::path const& file)
 {
-    std::string const remove = "remove it, so that it is made again";
+    // A checkpoint is not made again.
+    std::string const remove =
+        kind == "checkpoint" ? "restart from another checkpoint" : "remove it, so that it is made again";
     std::string_view const all(reinterpret_cast<char const*>(bytes.data()), bytes.size());
     if (!all.starts_with(first_words.substr(0, std::min(all.size(), first_words.size()))))
         refuse(file, "is not a snapshot", "it does not begin with \"gimdem snapshot\"", "check the path");

@@ -14,20 +14,14 @@
 #include <vector>
 
 #include "core/Error.hpp"
+#include "particles/RandomInsertion.hpp"
+#include "particles/SphereSeed.hpp"
 
 namespace gimdem
 {
 
 namespace
 {
-
-/// A sphere to be.
-struct Seed
-{
-    Vec3 position;
-    double radius;
-    Vec3 velocity;
-};
 
 /// Uniform in [-1, 1) from the raw bits of a 64-bit Mersenne twister: the same numbers with any standard library.
 double symmetric(std::mt19937_64& random)
@@ -36,7 +30,7 @@ double symmetric(std::mt19937_64& random)
 }
 
 /// A simple cubic lattice filled layer by layer along `up` (against gravity), stretched across to fill the box.
-std::vector<Seed> lattice(InsertionSettings const& settings, std::int64_t count, int up)
+std::vector<SphereSeed> lattice(InsertionSettings const& settings, std::int64_t count, int up)
 {
     double const radius = settings.diameter / 2;
     int const across[2] = {(up + 1) % 3, (up + 2) % 3};
@@ -67,7 +61,7 @@ std::vector<Seed> lattice(InsertionSettings const& settings, std::int64_t count,
                         count, settings.spacing, room));
 
     std::mt19937_64 random(settings.seed);
-    std::vector<Seed> seeds;
+    std::vector<SphereSeed> seeds;
     seeds.reserve(static_cast<std::size_t>(count));
     for (std::int64_t k = 0; k < count; ++k)
     {
@@ -111,7 +105,7 @@ std::vector<double> parse_numbers(std::string const& line, std::filesystem::path
 }
 
 /// Spheres of a CSV file with the header x,y,z[,radius][,vx,vy,vz].
-std::vector<Seed> from_file(InsertionSettings const& settings, std::filesystem::path const& folder)
+std::vector<SphereSeed> from_file(InsertionSettings const& settings, std::filesystem::path const& folder)
 {
     std::filesystem::path const file = folder / settings.file;
     std::ifstream in(file);
@@ -133,7 +127,7 @@ std::vector<Seed> from_file(InsertionSettings const& settings, std::filesystem::
             throw UserError(fmt::format("{}:1: the header has no column \"{}\"; it reads x,y,z[,radius][,vx,vy,vz]",
                                         file.string(), name));
 
-    std::vector<Seed> seeds;
+    std::vector<SphereSeed> seeds;
     for (int number = 2; std::getline(in, line); ++number)
     {
         if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
@@ -146,7 +140,7 @@ std::vector<Seed> from_file(InsertionSettings const& settings, std::filesystem::
             auto const found = column.find(name);
             return found == column.end() ? otherwise : values[found->second];
         };
-        Seed const seed{
+        SphereSeed const seed{
             {value("x", 0), value("y", 0), value("z", 0)},
             value("radius", settings.diameter / 2),
             {value("vx", settings.velocity[0]), value("vy", settings.velocity[1]), value("vz", settings.velocity[2])}};
@@ -160,24 +154,40 @@ std::vector<Seed> from_file(InsertionSettings const& settings, std::filesystem::
     return seeds;
 }
 
-void append(std::vector<Seed> const& seeds, int material, double density, ParticleState& particles)
+std::vector<SphereSeed> seeds_of(InsertionSettings const& insertion, Case const& settings, double density, int up,
+                                 ParticleState const& present)
+{
+    if (insertion.arrangement == "file") return from_file(insertion, settings.file.parent_path());
+    if (insertion.arrangement == "random") return random_spheres_in_box(insertion, density, present);
+    return lattice(insertion,
+                   insertion.count > 0 ? insertion.count : count_of_mass(insertion.mass, insertion.diameter, density),
+                   up);
+}
+
+}  // namespace
+
+void append(std::vector<SphereSeed> const& seeds, int material, double density, std::int64_t first_id,
+            ParticleState& particles)
 {
     std::int64_t p = particles.count();
-    particles.resize(p + static_cast<std::int64_t>(seeds.size()));
-    for (Seed const& seed : seeds)
+    particles.resize(p + std::ssize(seeds));
+    for (SphereSeed const& seed : seeds)
     {
         double const mass = density * sphere_volume(seed.radius);
+        if (!std::isnormal(mass) || !std::isnormal(mass * seed.radius * seed.radius))
+            throw UserError(
+                fmt::format("a particle of radius {:.6g} m and density {:.6g} kg/m^3 has no mass or moment of inertia "
+                            "that can be computed with; correct the radius (in m) or the density",
+                            seed.radius, density));
         particles.position[p] = Quad::of(seed.position, seed.radius);
         particles.velocity[p] = Quad::of(seed.velocity, 1 / mass);
         particles.angular_velocity[p] = {0, 0, 0, 1 / (0.4 * mass * seed.radius * seed.radius)};
         particles.force[p] = particles.torque[p] = {0, 0, 0, 0};
         particles.material[p] = material;
-        particles.id[p] = p;
+        particles.id[p] = first_id++;
         ++p;
     }
 }
-
-}  // namespace
 
 std::int64_t count_of_mass(double mass, double diameter, double density)
 {
@@ -197,11 +207,7 @@ ParticleState insert_particles(Case const& settings, Materials const& materials)
     {
         int const material = materials.number_of(insertion.material);
         double const density = materials[material].density;
-        std::int64_t const count =
-            insertion.count > 0 ? insertion.count : count_of_mass(insertion.mass, insertion.diameter, density);
-        append(insertion.arrangement == "file" ? from_file(insertion, settings.file.parent_path())
-                                               : lattice(insertion, count, up),
-               material, density, particles);
+        append(seeds_of(insertion, settings, density, up, particles), material, density, particles.count(), particles);
     }
     return particles;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Where the particles start: lattices and files.
+/// Where the particles start: lattices, files and random places.
 #pragma once
 
 #include "core/Case.hpp"

@@ -69,7 +69,10 @@ struct Domain
 private:
     GIMDEM_HD static double wrap(double x, double low, double period)
     {
-        return period > 0 ? x - period * std::floor((x - low) / period) : x;
+        if (!(period > 0) || (low <= x && x < low + period)) return x;
+        double const wrapped = x - period * std::floor((x - low) / period);
+        // Rounding must not put it beyond an end; a NaN stays one.
+        return wrapped < low || wrapped >= low + period ? low : wrapped;
     }
 };
 

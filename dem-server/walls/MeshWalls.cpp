@@ -35,7 +35,7 @@ void visit_edges(PolyMesh const& mesh, std::vector<std::int32_t> const& plane_of
 void WallGeometry::add_mesh(PolyMesh const& mesh, std::vector<std::string> const& also)
 {
     mesh_body_ = body_count();
-    begin_body("", WallMotion());
+    begin_body("the walls of the mesh", "", WallMotion());
     join_planes(mesh, also);
     cut_into_triangles(mesh);
     join_patches(mesh);

@@ -42,15 +42,18 @@ struct NearbyWalls
     GIMDEM_HD void operator()(Vec3 const& x, Visit&& visit) const
     {
         for (std::int32_t b = 0; b < walls.body_count; ++b)
-        {
-            WallBody const& body = walls.bodies[b];
-            Vec3 const y = to_body(b, x);
-            if (!body.has_triangles)
-                for (std::int32_t s = body.surface; s < body.surface_end; ++s)
-                    visit(y, SurfaceRun{s, 0, 0, true});
-            else if ((y.array() >= body.low.vec().array()).all() && (y.array() <= body.high.vec().array()).all())
-                visit_box(body, y, visit);
-        }
+            visit_body(walls.bodies[b], to_body(b, x), visit);
+    }
+
+    /// The same for one body; y is in its frame.
+    template <class Visit>
+    GIMDEM_HD void visit_body(WallBody const& body, Vec3 const& y, Visit&& visit) const
+    {
+        if (!body.has_triangles)
+            for (std::int32_t s = body.surface; s < body.surface_end; ++s)
+                visit(y, SurfaceRun{s, 0, 0, true});
+        else if ((y.array() >= body.low.vec().array()).all() && (y.array() <= body.high.vec().array()).all())
+            visit_box(body, y, visit);
     }
 
     /// The triangles of a surface that may be within reach of y.

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "walls/WallContacts.hpp"
 
-#include <algorithm>
-
 #include "exec/ForEach.hpp"
 #include "exec/Reduce.hpp"
-#include "walls/WallKernels.hpp"
+#include "walls/WallKernel.hpp"
 
 namespace gimdem
 {
@@ -27,31 +25,36 @@ WallContacts::WallContacts(exec::Execution execution, Materials const& materials
 
 void WallContacts::add_forces(ParticleState& particles, double dt)
 {
-    WallFinder const find{
-        {nearby(), pairs_.plane.view().data, pairs_.whole.view().data},
-        {pairs_.displacement.view().data, model_.has_rolling_spring() ? pairs_.rolling_spring.view().data : nullptr},
-        particles.position.view().data,
-        pairs_.offsets.view().data,
-        touches_.view().data};
-    wall_force_.resize(near_.size());
+    if (particles.count() == 0) force_.resize(0);  // nobody is left, and no list was built
+    WallFinder const find{nearby(), pairs_view(),
+                          WallSprings{pairs_.displacement.view().data,
+                                      model_.has_rolling_spring() ? pairs_.rolling_spring.view().data : nullptr},
+                          particles.position.view().data, force_.view().data};
     model_.visit(
         [&]<class Law>(LawTable<Law> const& table)
         {
-            exec::for_each(execution_, near_.size(),
-                           WallKernel<Law>{particles.view(), find, near_.view().data, table.constants.view().data,
-                                           first_pair_.view().data, dt, wall_force_.view().data});
+            using Kernel = WallKernel<Law>;
+            exec::for_each_uneven(execution_, (particles.count() + Kernel::block - 1) / Kernel::block,
+                                  Kernel{particles.view(), find, table.constants.view().data, dt});
         });
-    Quad const* const force = wall_force_.view().data;
+    Quad const* const force = force_.view().data;
     total_force_ = exec::reduce(
-        execution_, wall_force_.size(), Quad{0, 0, 0, 0}, [=](std::int64_t n) { return force[n]; },
+        execution_, force_.size(), Quad{0, 0, 0, 0}, [=](std::int64_t k) { return force[k]; },
         [](Quad const& a, Quad const& b) { return a + b; });
+}
+
+WallPairsView WallContacts::pairs_view()
+{
+    return {pairs_.offsets.view().data, pairs_.particle.view().data, pairs_.plane.view().data, pairs_.row.view().data,
+            pairs_.whole.view().data,   pairs_.alone.view().data,    touches_.view().data};
 }
 
 Quad WallContacts::force_on(std::int64_t particle) const
 {
-    auto const near = near_.host();
-    auto const place = std::lower_bound(near.begin(), near.end(), particle);
-    return place != near.end() && *place == particle ? wall_force_[place - near.begin()] : Quad{0, 0, 0, 0};
+    Quad sum{0, 0, 0, 0};
+    for (std::int32_t k = pairs_.offsets[particle]; k < pairs_.offsets[particle + 1]; ++k)
+        sum = sum + force_[k];
+    return sum;
 }
 
 }  // namespace gimdem

@@ -19,12 +19,17 @@ namespace gimdem
 /// Particle-plane pairs that touch or may soon touch, by rising particle, then plane.
 struct WallPairs
 {
-    exec::Buffer<std::int32_t> offsets;  ///< shape=(n_particles + 1,)
-    exec::Buffer<std::int32_t> plane;    ///< shape=(n_pairs,)
-    exec::Buffer<std::uint8_t> whole;    ///< shape=(n_pairs,): 1 where the plane's rim is out of reach
-    exec::Buffer<Quad> displacement;     ///< shape=(n_pairs,), tangential spring [m]
-    exec::Buffer<Quad> rolling_spring;   ///< shape=(n_pairs,), torque [N m]; empty where no law has such a spring
+    exec::Buffer<std::int32_t> offsets;   ///< shape=(n_particles + 1,)
+    exec::Buffer<std::int32_t> plane;     ///< shape=(n_pairs,)
+    exec::Buffer<std::int32_t> particle;  ///< shape=(n_pairs,)
+    exec::Buffer<std::int32_t> row;       ///< shape=(n_pairs,): of the two materials in the table of laws
+    exec::Buffer<std::uint8_t> whole;     ///< shape=(n_pairs,): 1 where the plane's rim is out of reach
+    exec::Buffer<std::uint8_t> alone;     ///< shape=(n_pairs,): 1 where no other pair of the particle has a say
+    exec::Buffer<Quad> displacement;      ///< shape=(n_pairs,), tangential spring [m]
+    exec::Buffer<Quad> rolling_spring;    ///< shape=(n_pairs,), torque [N m]; empty where no law has such a spring
 };
+
+struct WallPairsView;
 
 class WallContacts
 {
@@ -34,7 +39,8 @@ public:
 
     /// Puts the walls where they are at `time` [s].
     void move_to(double time);
-    double time() const { return time_; }  ///< at which the walls stand [s]
+    double time() const { return time_; }              ///< at which the walls stand [s]
+    double built_time() const { return built_time_; }  ///< at which they stood when the list was built [s]
 
     /// True when a wall has moved so far since the list was built that it may miss a contact: more than skin / 2.
     bool is_stale(double skin) const;
@@ -55,15 +61,19 @@ public:
 
     WallPairs& pairs() { return pairs_; }
     WallPairs const& pairs() const { return pairs_; }
+    std::int32_t plane_count() const { return walls_.plane_count(); }
 
     /// Force of the walls on a particle in the last add_forces [N]; w: number of contacts.
     Quad force_on(std::int64_t particle) const;
 
     /// Its sum over all particles [N].
     Vec3 total_force() const { return total_force_.xyz(); }
+    /// Puts it back, after a restart.
+    void set_total_force(Vec3 const& force) { total_force_.set_xyz(force); }
 
 private:
     NearbyWalls nearby() const { return {walls_.view(), poses_.view().data}; }
+    WallPairsView pairs_view();
     void remember_build(ParticleState const& particles, double skin);
     void carry_springs(std::span<std::int32_t const> order, exec::Buffer<Quad> const& old_spring,
                        exec::Buffer<Quad>& spring);
@@ -71,7 +81,7 @@ private:
     exec::Execution execution_;
     ContactModel model_;
     WallGeometry const& walls_;
-    double time_ = 0;
+    double time_ = 0, built_time_ = 0;
     bool some_wall_moves_ = false;
     exec::Buffer<WallPose> poses_, built_at_;        ///< of each body, now and when the list was built
     Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();  ///< around all particles and what they reached then [m]
@@ -79,8 +89,7 @@ private:
     WallPairs pairs_, old_;
     exec::Buffer<std::uint64_t> seen_;  ///< what the first look at the walls found, for the second
     exec::Buffer<Touch> touches_;       ///< room for the touches of particles with many pairs
-    exec::Buffer<std::int32_t> near_;   ///< particles that have pairs: all others cost nothing
-    exec::Buffer<Quad> wall_force_;     ///< on each of them
+    exec::Buffer<Quad> force_;          ///< of each pair [N]; w: 1 where it touches, or where it may hold a spring
     Quad total_force_{0, 0, 0, 0};
 };
 

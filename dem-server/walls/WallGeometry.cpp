@@ -87,7 +87,7 @@ WallView WallGeometry::view() const
 
 void WallGeometry::add_item(WallItemSettings const& item)
 {
-    begin_body(item.material, WallMotion(item));
+    begin_body("wall \"" + item.name + '"', item.material, WallMotion(item));
     if (item.shape == "plane")
     {
         Vec3 const normal = vector(item.normal).normalized();
@@ -107,21 +107,23 @@ void WallGeometry::add_item(WallItemSettings const& item)
         if (item.inside)
             for (SurfaceMesh::Triangle& triangle : surface.triangles)
                 std::swap(triangle[1], triangle[2]);
-        add_surfaces(surface, item.open);
+        add_surfaces(surface, item);
+        closed_.back() = !item.open;
     }
     end_body();
 }
 
-void WallGeometry::add_surfaces(SurfaceMesh const& surface, bool open)
+void WallGeometry::add_surfaces(SurfaceMesh const& surface, WallItemSettings const& item)
 {
-    SurfacePlanes const planes = find_planes(surface, open);
+    SurfacePlanes const planes = find_planes(surface, item.open);
     std::int32_t const first = plane_count();
     for (std::size_t p = 0; p < planes.planes.size(); ++p)
     {
         WallSurface& s = add_surface(SurfaceKind::facets, planes.planes[p].xyz(), planes.planes[p].w);
         s.slack = planes.slack[p];
         s.patch = first + planes.patch_of_plane[p];
-        s.two_sided = open;
+        s.two_sided = item.open;
+        s.inside = item.inside;
         s.behind = 0.5;  // behind a thin solid is its other side
     }
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
@@ -133,14 +135,16 @@ void WallGeometry::add_surfaces(SurfaceMesh const& surface, bool open)
     }
 }
 
-void WallGeometry::begin_body(std::string const& material, WallMotion const& motion)
+void WallGeometry::begin_body(std::string const& name, std::string const& material, WallMotion const& motion)
 {
     bodies_.resize(bodies_.size() + 1);
     WallBody& body = bodies_[bodies_.size() - 1];
     body = {};
     body.surface = plane_count();
     body.moves = motion.moves();
+    names_.push_back(name);
     materials_.push_back(material);
+    closed_.push_back(false);
     motions_.push_back(motion);
 }
 
@@ -211,6 +215,15 @@ void WallGeometry::bin_triangles(WallBody& body, std::int64_t first_triangle)
         grid_offsets_[body.grid_begin + k] = before + offsets[k];
     grid_triangles_.resize(before + members);
     visit([&](std::int32_t cell, std::int32_t t) { grid_triangles_[before + offsets[cell]++] = t; });
+}
+
+std::span<WallTriangle const> WallGeometry::triangles_of(std::int32_t body) const
+{
+    WallBody const& b = bodies_[body];
+    if (!b.has_triangles) return {};
+    WallSurface const &first = surfaces_[b.surface], &last = surfaces_[b.surface_end - 1];
+    return triangles_.host().subspan(static_cast<std::size_t>(first.triangle),
+                                     static_cast<std::size_t>(last.triangle + last.triangle_count - first.triangle));
 }
 
 std::string WallGeometry::description() const

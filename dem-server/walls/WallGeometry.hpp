@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,11 @@ public:
     std::int32_t body_count() const { return static_cast<std::int32_t>(bodies_.size()); }
     /// Material of a body; empty: that of [walls].
     std::string const& material(std::int32_t body) const { return materials_[static_cast<std::size_t>(body)]; }
+    /// What messages call a body.
+    std::string const& name(std::int32_t body) const { return names_[static_cast<std::size_t>(body)]; }
+    /// Whether a body is a closed surface of the case file.
+    bool is_closed(std::int32_t body) const { return closed_[static_cast<std::size_t>(body)]; }
+    std::span<WallTriangle const> triangles_of(std::int32_t body) const;
     WallMotion const& motion(std::int32_t body) const { return motions_[static_cast<std::size_t>(body)]; }
 
     /// All that decides what the walls do to particles, as text: for names of files that depend on it.
@@ -52,9 +58,9 @@ private:
     std::int32_t plane_of(Vec3 const& normal, double offset, double tolerance);
 
     void add_item(WallItemSettings const& item);
-    void add_surfaces(SurfaceMesh const& surface, bool open);
+    void add_surfaces(SurfaceMesh const& surface, WallItemSettings const& item);
 
-    void begin_body(std::string const& material, WallMotion const& motion);
+    void begin_body(std::string const& name, std::string const& material, WallMotion const& motion);
     WallSurface& add_surface(SurfaceKind kind, Vec3 const& direction, double offset);
     void end_body();
     void bin_triangles(WallBody& body, std::int64_t first_triangle);
@@ -65,7 +71,8 @@ private:
     exec::Buffer<WallTriangle> triangles_;
     exec::Buffer<WallBody> bodies_;
     exec::Buffer<std::int32_t> grid_offsets_, grid_triangles_;
-    std::vector<std::string> materials_;
+    std::vector<std::string> names_, materials_;
+    std::vector<bool> closed_;
     std::vector<WallMotion> motions_;
     std::vector<std::int32_t> plane_of_face_;  ///< -1 for faces that are no wall
 };

@@ -14,6 +14,47 @@ namespace gimdem
 namespace
 {
 
+/// Tells what the pairs of one particle are, once they are listed.
+struct PairDescriber
+{
+    WallView walls;
+    std::int32_t const* offsets;
+    std::int32_t const* plane;
+    std::uint8_t const* whole;
+    std::int32_t const* material;    ///< of each particle
+    std::int32_t const* first_pair;  ///< of each body: the row of its material
+    std::int32_t* particle;
+    std::int32_t* row;
+    std::uint8_t* alone;
+
+    GIMDEM_HD void operator()(std::int64_t i) const
+    {
+        bool const all_alone = are_alone(offsets[i], offsets[i + 1]);
+        for (std::int32_t k = offsets[i]; k < offsets[i + 1]; ++k)
+        {
+            particle[k] = static_cast<std::int32_t>(i);
+            row[k] = first_pair[walls.surfaces[plane[k]].body] + material[i];
+            alone[k] = all_alone;
+        }
+    }
+
+private:
+    /// Planes at rest that are touched inside or not at all, no two of one patch: none stands for another, and no
+    /// spring goes from one to another.
+    GIMDEM_HD bool are_alone(std::int32_t begin, std::int32_t end) const
+    {
+        for (std::int32_t k = begin; k < end; ++k)
+        {
+            WallSurface const& s = walls.surfaces[plane[k]];
+            if (whole[k] == 0 || s.kind == SurfaceKind::cylinder || s.two_sided || walls.bodies[s.body].moves)
+                return false;
+            for (std::int32_t m = begin; m < k; ++m)
+                if (walls.surfaces[plane[m]].patch == s.patch) return false;
+        }
+        return true;
+    }
+};
+
 /// Calls visit(corner) for the eight corners of a box.
 template <class Visit>
 void visit_corners(Vec3 const& low, Vec3 const& high, Visit&& visit)
@@ -107,24 +148,25 @@ void WallContacts::build(ParticleState const& particles, double skin, std::span<
         nullptr};
     exec::for_each(execution_, n, lister);
     std::int32_t most = 0;
-    std::int64_t near = 0;
-    near_.resize(n);
     for (std::int64_t i = 0; i < n; ++i)
-    {
         most = std::max(most, pairs_.offsets[i]);
-        near_[near] = static_cast<std::int32_t>(i);
-        near += pairs_.offsets[i] > 0;
-    }
-    near_.resize(near);
     std::int64_t const count = exec::exclusive_scan(pairs_.offsets.host());
-    pairs_.plane.resize(count);
+    for (auto* const numbers : {&pairs_.plane, &pairs_.particle, &pairs_.row})
+        numbers->resize(count);
     pairs_.whole.resize(count);
+    pairs_.alone.resize(count);
+    force_.resize(count);
+    force_.fill({0, 0, 0, 1});
     pairs_.displacement.resize(count);
     pairs_.rolling_spring.resize(model_.has_rolling_spring() ? count : 0);
     touches_.resize(most > WallTouches::most_at_hand ? count : 0);
     lister.plane = pairs_.plane.view().data;
     lister.whole = pairs_.whole.view().data;
     exec::for_each(execution_, n, lister);
+    exec::for_each(execution_, n,
+                   PairDescriber{walls_.view(), pairs_.offsets.view().data, pairs_.plane.view().data,
+                                 pairs_.whole.view().data, particles.material.view().data, first_pair_.view().data,
+                                 pairs_.particle.view().data, pairs_.row.view().data, pairs_.alone.view().data});
 
     if (has_springs)
         carry_springs(order, old_.displacement, pairs_.displacement);
@@ -162,6 +204,7 @@ void WallContacts::remember_build(ParticleState const& particles, double skin)
 void WallContacts::remember_build(Vec3 const& low, Vec3 const& high)
 {
     built_at_ = poses_;
+    built_time_ = time_;
     low_ = low;
     high_ = high;
 }

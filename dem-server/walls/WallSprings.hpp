@@ -21,6 +21,11 @@ struct WallSprings
         if (rolling != nullptr) rolling[k] = {0, 0, 0, 0};
     }
 
+    GIMDEM_HD bool are_slack(std::int32_t k) const
+    {
+        return tangential[k].xyz().isZero(0) && (rolling == nullptr || rolling[k].xyz().isZero(0));
+    }
+
     /// Takes over what pair `from` remembers.
     GIMDEM_HD void take(std::int32_t k, std::int32_t from) const
     {
@@ -46,7 +51,7 @@ struct SpringMover
         for (std::int32_t t = 0; t < count; ++t)
         {
             std::int32_t const k = touches[t].pair;
-            if (!touches[t].counts || !spring[k].xyz().isZero(0)) continue;
+            if (!touches[t].counts || !springs.are_slack(k)) continue;
             std::int32_t const from = giver(touches, count, t);
             if (from >= 0) springs.take(k, from);
         }
@@ -67,7 +72,7 @@ private:
         double best_cosine = 0.5;  // two smooth seams at most lie between
         for (std::int32_t k = begin; k < end; ++k)
         {
-            if (springs.tangential[k].w != 0 || springs.tangential[k].xyz().isZero(0)) continue;
+            if (springs.tangential[k].w != 0 || springs.are_slack(k)) continue;
             WallSurface const& other = surfaces[walls.plane[k]];
             double cosine = own.normal.xyz().dot(other.normal.xyz());
             if (own.two_sided) cosine = std::abs(cosine);

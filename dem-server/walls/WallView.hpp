@@ -38,7 +38,7 @@ struct WallSurface
     std::int32_t triangle;        ///< its first triangle ...
     std::int32_t triangle_count;  ///< ... and how many
     SurfaceKind kind;
-    bool inside;     ///< cylinder: particles are inside
+    bool inside;     ///< cylinder, closed surface: particles are inside
     bool endless;    ///< cylinder: has no ends
     bool two_sided;  ///< pushes away on either side
     double behind;   ///< a centre that is farther behind than this many radii is not pushed back [1]

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Time of a DEM step of a bed of 1.545 mm beads in the box of cases/wachem-bed, no fluid.
+/// Time and memory of a DEM step of a bed of 1.545 mm beads in the box of cases/wachem-bed, no fluid.
 ///
-///   benchmark_dem [--data FILE] [--write FILE] [--steps N] [--warm-up N] [--threads N] [--dt S] [--skin K]
+///   benchmark_dem [--data FILE] [--write FILE] [--steps N] [--warm-up N] [--threads N] [--dt S] [--skin K] [--count N]
+///                 [--box X Y Z]
 ///
 /// FILE: particles in the format of LAMMPS (id type diameter density x y z, then Velocities), so that other programs
 /// can start from the same state; without it, a lattice that falls. Prints figures.
 #include <fmt/format.h>
+#include <malloc.h>
 #include <CLI/CLI.hpp>
 
 #include <chrono>
@@ -27,16 +29,17 @@ struct Options
     std::string data, write;
     int steps = 1000, warm_up = 500, threads = 1;
     double dt = 2e-5, skin = 0.3;
+    std::int64_t count = 17'563;
     std::vector<double> box{0.09, 0.008, 0.5};
 };
 
 /// The lattice of cases/wachem-bed: what falls becomes an irregular bed.
-InsertionSettings lattice(std::vector<double> const& box)
+InsertionSettings lattice(std::vector<double> const& box, std::int64_t count)
 {
     InsertionSettings lattice;
     lattice.material = "bead";
     lattice.diameter = 1.545e-3;
-    lattice.count = 17'563;
+    lattice.count = count;
     lattice.box = {{{0, 0, 0}, {box[0], box[1], box[2]}}};
     lattice.spacing = 1.65e-3;
     lattice.jitter = 2e-5;
@@ -105,6 +108,13 @@ void write_data(std::string const& path, ParticleState const& p, std::vector<dou
     if (!file) throw std::runtime_error("cannot write " + path);
 }
 
+/// Memory that the program holds at present, what it gave back excluded [B].
+std::size_t memory_in_use()
+{
+    struct mallinfo2 const all = mallinfo2();
+    return all.uordblks + all.hblkhd;  // small blocks, and those with pages of their own
+}
+
 double kinetic_energy(ParticleState const& p)
 {
     double sum = 0;
@@ -122,7 +132,8 @@ void run(Options const& options)
     Materials const materials(settings);
     PolyMesh const mesh(test::BoxMesh::make({1, 1, 1}, {options.box[0], options.box[1], options.box[2]}));
     WallGeometry const walls(mesh, {"bottom"}, 0.9e-3);
-    settings.insertion = {lattice(options.box)};
+    settings.insertion = {lattice(options.box, options.count)};
+    std::size_t const before = memory_in_use();
     DemSystem system(
         settings, execution, materials, walls,
         options.data.empty() ? insert_particles(settings, materials) : test::particles_of(read_data(options.data)));
@@ -137,6 +148,7 @@ void run(Options const& options)
         system.step(options.dt);
     double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     auto const n = static_cast<double>(system.particles().count());
+    auto const bytes = static_cast<double>(memory_in_use() - before);
     if (!options.write.empty()) write_data(options.write, system.particles(), options.box);
     fmt::print("figure: dem_particles = {} [1]\n", n);
     fmt::print("figure: dem_threads = {} [1]\n", options.threads);
@@ -144,6 +156,7 @@ void run(Options const& options)
     fmt::print("figure: dem_particle_steps_per_second = {:.4g} [1/s]\n", n * options.steps / seconds);
     fmt::print("figure: dem_list_rebuilds = {} [1]\n", system.rebuilds() - rebuilds);
     fmt::print("figure: dem_pairs_per_particle = {:.4g} [1]\n", double(system.neighbors().pair_count()) / n);
+    fmt::print("figure: bytes_per_particle = {:.4g} [B]\n", bytes / n);
     fmt::print("figure: dem_kinetic_energy = {:.6g} [J]\n", kinetic_energy(system.particles()));
 }
 
@@ -160,6 +173,7 @@ int main(int argc, char** argv)
     app.add_option("--threads", options.threads, "threads");
     app.add_option("--dt", options.dt, "time step [s]");
     app.add_option("--skin", options.skin, "of the neighbour list, in radii");
+    app.add_option("--count", options.count, "particles of the lattice");
     app.add_option("--box", options.box, "sides of the box [m]")->expected(3);
     CLI11_PARSE(app, argc, argv);
     try

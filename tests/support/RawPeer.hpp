@@ -61,13 +61,14 @@ public:
                          k + 1 < frames.size() ? zmq::send_flags::sndmore : zmq::send_flags::none);
     }
 
-    /// Stamps version and session number, unless they are set.
-    void send(RawMessage message)
+    /// Sets version and session number, unless they are set.
+    RawMessage stamped(RawMessage message) const
     {
         if (message.envelope.protocol_major() == 0) message.envelope.set_protocol_major(1);
         if (message.envelope.session() == 0) message.envelope.set_session(session_);
-        send_frames(message.frames());
+        return message;
     }
+    void send(RawMessage const& message) { send_frames(stamped(message).frames()); }
 
     /// The next message that is not a heartbeat. Empty: nothing came in time.
     std::optional<RawMessage> receive(double seconds = 20)

@@ -88,7 +88,7 @@ public:
     virtual void load_fluid(coupling::FluidFields const& fields) = 0;
     virtual void set_void_fraction(exec::Buffer<double> const& void_fraction) = 0;
     virtual std::int64_t clipped() = 0;
-    /// Finds the cell of every particle. False where one has left the mesh.
+    /// Finds the cell of every particle. False where some have left the mesh; they belong to the last cell before.
     [[nodiscard]] virtual bool locate() = 0;
     virtual void sum_into_cells(CellSums& sums) = 0;
     virtual ImpulseSums impulse_sums() = 0;

@@ -70,7 +70,7 @@ public:
     void load(coupling::FluidFields const& fields);
     void set_void_fraction(exec::Buffer<double> const& values) { void_fraction_.upload(device_, values); }
 
-    void apply(DeviceParticles<Device> const& particles);
+    void apply(DeviceParticles<Device>& particles);
     FluidLoad const* loads() const { return loads_.data(); }
     Vec3 steady_force();
     std::int64_t clipped();

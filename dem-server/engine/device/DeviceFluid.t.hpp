@@ -126,9 +126,10 @@ void DeviceFluid<Device>::load(coupling::FluidFields const& fields)
 }
 
 template <class Device>
-void DeviceFluid<Device>::apply(DeviceParticles<Device> const& particles)
+void DeviceFluid<Device>::apply(DeviceParticles<Device>& particles)
 {
     std::int64_t const n = particles.count();
+    if (particles.cell_of.size() != n) static_cast<void>(locate(particles));  // some came or went
     loads_.resize(device_, n);
     if (clips_.size() != n)
     {
@@ -179,9 +180,8 @@ bool DeviceFluid<Device>::locate(DeviceParticles<Device>& particles)
         n,
         LocateKernel{
             {mesh_.view()}, particles.position.data(), mesh_.wall_faces(), particles.cell_of.data(), status_.data()});
-    if (highest_(n, EntryOf<std::int32_t, std::uint8_t>{status_.data()}, Highest{}) != 0) return false;
     sort_(device_, {particles.cell_of.data(), n}, mesh_.cell_count(), by_cell_);
-    return true;
+    return highest_(n, EntryOf<std::int32_t, std::uint8_t>{status_.data()}, Highest{}) == 0;
 }
 
 template <class Device>

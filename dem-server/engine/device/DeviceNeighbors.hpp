@@ -189,13 +189,17 @@ void DeviceNeighbors<Device>::upload(ParticleState const& particles, NeighborLis
     sizes_ = Extent::of(one, particles);
     census_ = SizeCensus::of(one, particles, sizes_);
     has_springs_ = list.row_offsets.size() == n + 1;
-    is_built_ = has_springs_ && list.built_at.size() == n;
+    is_built_ = n == 0 || (has_springs_ && list.built_at.size() == n);
+    if (n == 0)
+        for (auto* const pairs : {&first_, &second_})
+            pairs->resize(device_, 0);
     if (!has_springs_) return;
     row_offsets_.upload(device_, list.row_offsets);
     second_.upload(device_, list.second);
     displacement_.upload(device_, list.displacement);
     if (carries_rolling_) rolling_spring_.upload(device_, list.rolling_spring);
     if (!is_built_) return;
+    if (n == 0) return;
     first_.upload(device_, list.first);
     touches_.upload(device_, list.touches);
     built_at_.upload(device_, list.built_at);

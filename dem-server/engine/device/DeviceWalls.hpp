@@ -46,7 +46,7 @@ public:
 
     void upload(WallPairs const& pairs, std::int64_t particle_count);
     /// The host may look after wait().
-    void download(WallPairs& pairs) const;
+    void download(WallPairs& pairs);
 
     bool is_stale(double skin) const { return walls_.is_stale(skin); }
 
@@ -70,6 +70,8 @@ private:
     DeviceWallGeometry<Device> geometry_;
     bool has_rolling_spring_;
     bool has_springs_ = false;
+    bool force_is_hosts_ = true;         ///< no force was computed here since the state came from the host
+    Vec3 hosts_impulse_ = Vec3::Zero();  ///< of such forces [N s]
     Array<std::int32_t> first_pair_, offsets_, plane_, old_offsets_, old_plane_, near_, near_places_;
     Array<std::uint8_t> whole_;
     Array<std::uint64_t> seen_;

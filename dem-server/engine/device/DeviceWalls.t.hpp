@@ -6,7 +6,7 @@
 
 #include "engine/device/DeviceWalls.hpp"
 #include "engine/device/Reductions.hpp"
-#include "walls/WallKernels.hpp"
+#include "walls/PairwiseWallKernel.hpp"
 
 namespace gimdem
 {
@@ -80,7 +80,6 @@ template <class Device>
 void DeviceWalls<Device>::upload(WallPairs const& pairs, std::int64_t particle_count)
 {
     has_springs_ = pairs.offsets.size() == particle_count + 1;
-    std::int64_t const forces = force_.size();
     near_.resize(device_, 0);
     if (has_springs_)
     {
@@ -91,15 +90,15 @@ void DeviceWalls<Device>::upload(WallPairs const& pairs, std::int64_t particle_c
         if (has_rolling_spring_) rolling_spring_.upload(device_, pairs.rolling_spring);
         if (pairs.whole.size() == pairs.plane.size()) find_near(particle_count);
     }
-    // The force of the step before is that of the same list, or unknown.
     force_.resize(device_, near_.size());
-    if (force_.size() != forces) force_.zero(device_);
+    force_is_hosts_ = true;
     if (impulse_.size() != particle_count) clear_impulse(particle_count);
 }
 
 template <class Device>
-void DeviceWalls<Device>::download(WallPairs& pairs) const
+void DeviceWalls<Device>::download(WallPairs& pairs)
 {
+    if (!force_is_hosts_) walls_.set_total_force(sum_(force_.size(), EntryOf<Quad>{force_.data()}, Add<Quad>{}).xyz());
     offsets_.download(device_, pairs.offsets);
     plane_.download(device_, pairs.plane);
     whole_.download(device_, pairs.whole);
@@ -167,16 +166,17 @@ void DeviceWalls<Device>::add_forces(DeviceLaws<Device> const& laws, DeviceParti
                                      double dt)
 {
     if (walls_.some_move()) geometry_.take_poses(device_, walls_);
-    WallFinder const find{{geometry_.view(), plane_.data(), whole_.data()},
-                          {displacement_.data(), rolling_spring_.data()},
-                          particles.position.data(),
-                          offsets_.data(),
-                          touches_.data()};
+    ParticleWallFinder const find{{geometry_.view(), plane_.data(), whole_.data()},
+                                  {displacement_.data(), rolling_spring_.data()},
+                                  particles.position.data(),
+                                  offsets_.data(),
+                                  touches_.data()};
+    force_is_hosts_ = false;
     laws.visit(
         [&]<class Law>(typename Law::template Constants<double> const* constants)
         {
-            device_.for_each(near_.size(), WallKernel<Law>{particles.view(), find, near_.data(), constants,
-                                                           first_pair_.data(), dt, force_.data()});
+            device_.for_each(near_.size(), ParticleWallKernel<Law>{particles.view(), find, near_.data(), constants,
+                                                                   first_pair_.data(), dt, force_.data()});
         });
 }
 
@@ -185,18 +185,22 @@ void DeviceWalls<Device>::clear_impulse(std::int64_t particle_count)
 {
     impulse_.resize(device_, particle_count);
     impulse_.zero(device_);
+    hosts_impulse_.setZero();
 }
 
 template <class Device>
 void DeviceWalls<Device>::add_impulse(double h)
 {
-    device_.for_each(near_.size(), WallImpulseKernel{near_.data(), force_.data(), h, impulse_.data()});
+    if (force_is_hosts_)
+        hosts_impulse_ += h * walls_.total_force();
+    else
+        device_.for_each(near_.size(), WallImpulseKernel{near_.data(), force_.data(), h, impulse_.data()});
 }
 
 template <class Device>
 Vec3 DeviceWalls<Device>::impulse()
 {
-    return sum_(impulse_.size(), EntryOf<Quad>{impulse_.data()}, Add<Quad>{}).xyz();
+    return hosts_impulse_ + sum_(impulse_.size(), EntryOf<Quad>{impulse_.data()}, Add<Quad>{}).xyz();
 }
 
 }  // namespace gimdem

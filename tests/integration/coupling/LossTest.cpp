@@ -77,7 +77,7 @@ TEST_P(Loss, OfAKilledClientEndsTheServerAtOnce)
     client->signal(SIGKILL);
     server.expect_end(1, "client \"scripted client\" at ", at_once);
     EXPECT_THAT(server.process().output(), testing::HasSubstr("has disappeared"));
-    EXPECT_TRUE(std::filesystem::exists(server.result("particles_last.h5"))) << "the last state was not kept";
+    EXPECT_EQ(server.checkpoints().size(), 1u) << "the last state was not kept";
     expect_no_shared_memory(server);
 }
 
@@ -156,6 +156,13 @@ TEST_P(Loss, OfAClientThatFailsTellsTheServerItsReason)
         failing.abort("the pressure solver diverged");
     }
     server.expect_end(1, "ended the run: the pressure solver diverged");
+}
+
+TEST(LossAlone, OfPatienceWithoutAClientEndsTheServerAtOnce)
+{
+    ServerProcess server(unused_ipc_endpoint());
+    server.process().signal(SIGINT);  // Ctrl-C
+    EXPECT_EQ(server.process().wait(soon), 128 + SIGINT) << "it would wait for a client for longer";
 }
 
 TEST(LossAlone, OfNoClientAtAllEndsTheServer)

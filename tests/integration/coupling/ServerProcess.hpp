@@ -5,11 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "BoxMesh.hpp"
 #include "Endpoint.hpp"
@@ -29,6 +31,7 @@ struct SmallCase
     double timeout = patient;       ///< of the server [s]
     double connect_time = patient;  ///< of the server [s]
     std::string schedule = "serial";
+    std::string more;  ///< of the case file
 
     static constexpr int particle_count = 300;
     static constexpr double diameter = 2e-3;          ///< [m]
@@ -53,7 +56,8 @@ struct SmallCase
                "box = [[0.006, 0.006, 0.01], [0.054, 0.054, 0.11]]\nspacing = 6e-3\njitter = 5e-4\n"
                "[fluid_forces]\ndrag = \"beetstra\"\npressure_gradient = false\n"
                "[mapping]\nmethod = \"gim\"\n"
-               "[output]\nparticle_interval = 0.0\n";
+               "[output]\nparticle_interval = 0.0\n" +
+               more;
     }
 };
 
@@ -96,6 +100,16 @@ public:
 
     Process& process() { return process_; }
     std::filesystem::path result(std::string const& name) const { return folder_ / "run/" / name; }
+
+    /// Its checkpoints, oldest first.
+    std::vector<std::filesystem::path> checkpoints() const
+    {
+        std::vector<std::filesystem::path> files;
+        for (auto const& entry : std::filesystem::directory_iterator(result("checkpoints")))
+            files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        return files;
+    }
 
     /// The address that it is bound to, once it is.
     std::string endpoint() const

@@ -123,7 +123,10 @@ TEST(MfixDem02, BouncesApproachThoseOfAHardSphere)
                 double const hard = drop_radius + (0.5 - drop_radius) * std::pow(e, 2 * k);
                 double const off = std::abs(apexes[static_cast<std::size_t>(k - 1)] - hard) / hard;
                 worst = std::max(worst, off);
-                if (e == 1) EXPECT_LT(off, 1e-3) << kn;
+                if (e == 1)
+                {
+                    EXPECT_LT(off, 1e-3) << kn;
+                }
             }
         }
         EXPECT_LT(worst, most) << kn;

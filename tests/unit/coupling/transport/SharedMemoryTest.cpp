@@ -90,7 +90,7 @@ TEST(SendMemory, GivesEachMessageThatIsSentASlotOfItsOwn)
 {
     SendMemory const memory;
     EXPECT_FALSE(memory.offset_of(memory.make(40000))) << "no segment yet";
-    memory.use(make_segment(bytes).segment);
+    memory.use(make_segment(segment_bytes(65536)).segment);
     for (std::size_t const slot : {0, 1, 2, 0, 1})
     {
         for (int attempt = 0; attempt < 2; ++attempt)  // what was packed and not sent is forgotten
@@ -106,7 +106,7 @@ TEST(SendMemory, GivesEachMessageThatIsSentASlotOfItsOwn)
 TEST(SendMemory, GivesAnOrdinaryFrameToWhatIsSmallOrDoesNotFit)
 {
     SendMemory const memory;
-    memory.use(make_segment(bytes).segment);
+    memory.use(make_segment(segment_bytes(65536)).segment);
     memory.begin_message();
     EXPECT_FALSE(memory.offset_of(memory.make(least_shared_bytes - 1)));
     EXPECT_FALSE(memory.offset_of(memory.make(65537)));

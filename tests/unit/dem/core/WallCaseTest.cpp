@@ -71,6 +71,10 @@ TEST(WallOfACase, MistakesAreNamed)
     EXPECT_THAT(message_of("shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n[[wall]]\nname = \"w\"\n"
                            "shape = \"plane\"\npoint = [0, 0, 1]\nnormal = [0, 0, -1]\n"),
                 HasSubstr("wall \"w\" is defined twice"));
+    std::string const periodic = "[domain]\nperiodic = [true, false, false]\nbox = [[0, 0, 0], [1, 0, 0]]\n";
+    EXPECT_THAT(message_of("shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0.1, 0, 1]\n" + periodic),
+                HasSubstr("\"normal\" of [[wall]] \"w\" has a part along x"));
+    EXPECT_EQ(message_of("shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n" + periodic), "no error");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "DeviceBackends.hpp"
 #include "DeviceScene.hpp"
@@ -155,6 +156,39 @@ TEST_P(DeviceDemTest, TakesWhatTheHostChanges)
 
     for (auto const& v : scene.seen().particles().velocity.host())
         EXPECT_NEAR(v.z, 1, 1e-3);
+}
+
+TEST_P(DeviceDemTest, LosesAndGainsParticlesAsTheHostDoes)
+{
+    DeviceScene host(serial, DeviceScene::falling(), 5), there(GetParam(), DeviceScene::falling(), 5);
+    for (DeviceScene* const scene : {&host, &there})
+    {
+        scene->run(20);
+        std::vector<std::int32_t> cause(125, -1);
+        for (std::size_t i = 0; i < cause.size(); i += 7)
+            cause[i] = 0;
+        EXPECT_EQ(scene->system.remove(cause, {"a test"}), 18);
+        scene->run(10);
+        scene->system.insert(particles_of({{{4e-3, 5e-3, 6e-3}, 8e-4}, {{7e-3, 2e-3, 1e-3}, 5e-4, {0, 0, 0.1}}}));
+        scene->run(20);
+    }
+
+    EXPECT_EQ(there.seen().particles().count(), 109);
+    expect_same_within(host.seen(), there.seen(), rounding);
+}
+
+TEST_P(DeviceDemTest, CanLoseThemAll)
+{
+    DeviceScene scene(GetParam(), DeviceScene::falling(), 2);
+    scene.run(3);
+
+    EXPECT_EQ(scene.system.remove(std::vector<std::int32_t>(8, 0), {"a test"}), 8);
+    scene.run(3);
+    scene.system.insert(particles_of({{{1e-3, 1e-3, 1e-3}, 9e-4}}));
+    scene.run(3);
+
+    EXPECT_EQ(scene.seen().particles().count(), 1);
+    EXPECT_LT(scene.seen().particles().velocity[0].z, 0);
 }
 
 TEST_P(DeviceDemTest, AllocatesNothingInASettledStep)

@@ -57,11 +57,12 @@ struct Fluid
 /// 216 spheres in a box of 64 cells, coupled.
 struct CoupledScene
 {
-    CoupledScene(exec::Execution execution, double ratio)
-        : settings(made()),
+    CoupledScene(exec::Execution execution, double ratio, Case const& given = made(),
+                 std::vector<std::string> const& closed = {"bottom", "top"})
+        : settings(given),
           materials(settings),
           mesh(BoxMesh::make({cells_along, cells_along, cells_along}, {0.0126, 0.0126, 0.0126})),
-          walls(mesh, {"bottom", "top"}, 1.5e-3),
+          walls(mesh, closed, 1.5e-3),
           system(settings, execution, materials, walls, particles_of(loose_spheres(6, ratio)))
     {
         system.prepare();
@@ -149,6 +150,30 @@ TEST_P(DeviceFluidTest, GivesTheSameBitsInAnyOrder)
 
     expect_same_bits(std::as_const(one.system), std::as_const(other.system));
     expect_same_solid(*one.engine, *other.engine, 1e-300);
+}
+
+TEST_P(DeviceFluidTest, LosesParticlesThroughTheOpenTopAsTheHostDoes)
+{
+    Fluid const fluid;
+    Case settings = CoupledScene::made();
+    settings.dem.gravity = {0, 0, 2000};  // up and out within a millisecond
+    CoupledScene host(serial, 1, settings, {"bottom"}), there(GetParam(), 1, settings, {"bottom"});
+    std::int64_t removed = 0;
+
+    for (int step = 1; step <= 8; ++step)
+    {
+        coupling::Step const over{step, (step - 1) * 2e-4, 2e-4};
+        StepReport const a = host.engine->advance(over, fluid.fields());
+        StepReport const b = there.engine->advance(over, fluid.fields());
+        EXPECT_EQ(a.removed, b.removed);
+        removed += b.removed;
+    }
+
+    EXPECT_GT(removed, 20);
+    EXPECT_LT(removed, 216);
+    // As many contacts as the others: 1e-10, times the roundings of 80 steps at ten times the speed.
+    expect_same_solid(*host.engine, *there.engine, 1e-8);
+    expect_same_within(std::as_const(host.system), std::as_const(there.system), 1e-8);
 }
 
 TEST_P(DeviceFluidTest, NamesTheParticleThatLeftTheMesh)

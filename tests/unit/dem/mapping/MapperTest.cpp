@@ -133,7 +133,7 @@ TEST(Mapper, ThreadsDoNotChangeABit)
     }
 }
 
-TEST(Mapper, ParticleThatLeftTheMeshIsNamed)
+TEST(Mapper, ParticleThatSankIntoAWallIsNamed)
 {
     PolyMesh const mesh(BoxMesh::make({3, 3, 3}, {1, 1, 1}));
     auto const message = [&](Vec3 const& x) -> std::string
@@ -150,7 +150,22 @@ TEST(Mapper, ParticleThatLeftTheMeshIsNamed)
     };
     EXPECT_EQ(message({-0.05, 0.5, 0.5}), "");  // sunk into a wall by less than its radius
     EXPECT_NE(message({-0.15, 0.5, 0.5}).find("particle 1"), std::string::npos);
-    EXPECT_NE(message({0.5, 0.5, 1.01}).find("outside the mesh"), std::string::npos);  // through the open top
+    EXPECT_NE(message({-0.15, 0.5, 0.5}).find("outside the mesh"), std::string::npos);
+}
+
+TEST(Mapper, ParticleThatLeftThroughAnOpenPatchIsListedAndMappedOnceMore)
+{
+    PolyMesh const mesh(BoxMesh::make({3, 3, 3}, {1, 1, 1}));
+    Mapping const m(mesh, particles_of({{{0.5, 0.5, 0.5}, 0.1}, {{0.5, 0.5, 1.01}, 0.1}}));
+    ASSERT_EQ(m.mapper.left().size(), 1u);
+    EXPECT_EQ(m.mapper.left()[0].particle, 1);
+    gimdem::coupling::Patch const* const top = mesh.find_patch("top");
+    EXPECT_GE(m.mapper.left()[0].face, top->start_face);
+    EXPECT_LT(m.mapper.left()[0].face, top->start_face + top->face_count);
+    double solid = 0;
+    for (double const v : m.sums.solid_volume.host())
+        solid += v;
+    EXPECT_NEAR(solid, 2 * gimdem::sphere_volume(0.1), 1e-15);  // rounding
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "Pairs.hpp"
 #include "TestCase.hpp"
 #include "core/Error.hpp"
@@ -37,6 +39,25 @@ TEST(PeriodicSearch, WrappedPositionsAreInTheBoxAndThoseInsideKeepTheirBits)
     EXPECT_EQ(domain.wrap(inside), inside);
     // Two roundings of numbers up to 2.
     EXPECT_NEAR((domain.wrap(outside) - Vec3(-0.1, 1.9, 9)).norm(), 0, 1e-15);
+}
+
+TEST(PeriodicSearch, WrappingAgainChangesNothing)
+{
+    // Just outside of either end, and where 1/L has no exact form: rounding puts some of them on the far end.
+    for (double const low : {0.0, -0.3, 7.1})
+        for (double const period : {1.0, 0.3, 0.07})
+        {
+            Domain const domain{{low, 0, 0}, {period, 0, 0}};
+            for (double const off : {-1e-20, -1e-17, -1e-16, 0.0, 1e-17, 1e-16, 0.01})
+                for (int k = -3; k <= 3; ++k)
+                {
+                    double const once = domain.wrap(Vec3(low + k * period + off, 0, 0)).x();
+                    EXPECT_GE(once, low);
+                    EXPECT_LT(once, low + period);
+                    EXPECT_EQ(domain.wrap(Vec3(once, 0, 0)).x(), once);
+                }
+        }
+    EXPECT_TRUE(std::isnan(Domain{{0, 0, 0}, {1, 0, 0}}.wrap(Vec3(NAN, 0, 0)).x()));
 }
 
 TEST(PeriodicSearch, ListsThePairsOfBruteForce)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Forces of the walls on one particle, theory.md (D.50)-(D.55).
+/// Forces of the walls on particles where each particle has a thread of its own, theory.md (D.50)-(D.55).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace gimdem
 {
 
 /// What all wall kernels share: finds the contacts of one particle, each with its springs.
-struct WallFinder
+struct ParticleWallFinder
 {
     WallTouches walls;
     WallSprings springs;
@@ -35,10 +35,10 @@ struct WallFinder
 
 /// All walls of one particle.
 template <class Law>
-struct WallKernel
+struct ParticleWallKernel
 {
     ParticleView particles;
-    WallFinder find;
+    ParticleWallFinder find;
     std::int32_t const* near;                                   ///< particles that have walls nearby
     typename Law::template Constants<double> const* constants;  ///< of all pairs of materials
     std::int32_t const* first_pair;                             ///< of each body: the row of its material

@@ -17,7 +17,12 @@ struct WallScene
 {
     WallScene(std::vector<WallItemSettings> const& walls_, std::vector<Sphere> const& spheres, double gravity = 9.81,
               double restitution = 0.9, double friction = 0.3, double young = 1.2e5, exec::Execution execution = serial)
-        : settings(made(walls_, gravity, restitution, friction, young)),
+        : WallScene(made(walls_, gravity, restitution, friction, young), spheres, execution)
+    {
+    }
+
+    WallScene(Case case_settings, std::vector<Sphere> const& spheres, exec::Execution execution = serial)
+        : settings(std::move(case_settings)),
           materials(settings),
           particles(particles_of(spheres)),
           walls(settings.wall, largest_radius(particles) + settings.dem.skin * smallest_radius(particles)),
@@ -48,6 +53,7 @@ struct WallScene
     Vec3 position(int i = 0) const { return system.particles().position[i].xyz(); }
     Vec3 velocity(int i = 0) const { return system.particles().velocity[i].xyz(); }
     Vec3 spin(int i = 0) const { return system.particles().angular_velocity[i].xyz(); }
+    Vec3 torque(int i = 0) const { return system.particles().torque[i].xyz(); }
     Vec3 wall_force(int i = 0) const { return system.walls().force_on(i).xyz(); }
     int contacts(int i = 0) const { return static_cast<int>(system.walls().force_on(i).w); }
 

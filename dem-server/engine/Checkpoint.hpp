@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Checkpoints: all that the particle side needs to go on as if it had never stopped, theory.md (D.68).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "core/Case.hpp"
+#include "engine/DemSystem.hpp"
+#include "particles/Inlet.hpp"
+
+namespace gimdem
+{
+
+/// Version of what a checkpoint holds; a reader accepts its own only.
+inline constexpr std::int64_t checkpoint_version = 1;
+
+/// Where a run is.
+struct RunPoint
+{
+    std::int64_t step = 0;  ///< time steps so far: of the DEM in a run without a fluid, else coupling steps
+    double time = 0;        ///< [s]
+};
+
+/// Writes the checkpoint, whole or not at all. The run goes on as if nothing had been written.
+void write_checkpoint(std::filesystem::path const& file, Case const& settings, RunPoint const& point,
+                      std::vector<Inlet> const& inlets, DemSystem const& system);
+
+/// Puts a checkpoint in place of the state of a system and the inlets that were made from the same case. Throws
+/// UserError for a file that is cut short, changed, of another version or of another case; nothing is changed then.
+RunPoint read_checkpoint(std::filesystem::path const& file, Case const& settings, std::vector<Inlet>& inlets,
+                         DemSystem& system);
+
+/// Throws UserError for a run that would end at `until` [s], where its checkpoint is, or before.
+void require_time_left(std::filesystem::path const& file, RunPoint const& point, double until);
+
+/// checkpoints/step_000000123_at_0.00123.h5 in a run folder: the step, and the time [s] for whoever looks for it.
+std::filesystem::path checkpoint_file(std::filesystem::path const& folder, RunPoint const& point);
+
+/// Removes all but the three newest checkpoints of a run folder: where the other solver died while it wrote its fields
+/// of the last but one, it has those of the one before.
+void keep_newest_checkpoints(std::filesystem::path const& folder);
+
+}  // namespace gimdem
