@@ -238,6 +238,13 @@ TEST_P(DeviceDemTest, ABedSettlesAsItDoesOnTheHost)
 
 GIMDEM_ON_DEVICES(DeviceDemTest);
 
+// Too many for an interpreter of GPU code: particles of two blocks of the host's sums, and several blocks of scan and
+// sort.
+TEST(DeviceDem, SumsOverBlocksInTheOrderOfTheHost)
+{
+    compare(guarded(3), DeviceScene::falling(), 11);
+}
+
 TEST(DeviceDem, SaysWhatIsMissingWhereThereIsNoCuda)
 {
     if (exec::cuda_is_there()) GTEST_SKIP() << "there is a GPU";
