@@ -8,7 +8,9 @@ namespace gimdem
 
 void ParticleContacts::sum_forces(ParticleState& particles, NeighborList& list, double dt)
 {
-    border_.resize(list.border.by_second.members.size());
+    static_assert(sizeof(BorderForce) == 2 * sizeof(Quad));
+    list.spare.resize(2 * list.border.by_second.members.size());
+    auto* const border = reinterpret_cast<BorderForce*>(list.spare.view().data);
     model_.visit(
         [&]<class Law>(LawTable<Law> const& table)
         {
@@ -17,7 +19,7 @@ void ParticleContacts::sum_forces(ParticleState& particles, NeighborList& list, 
                 exec::for_each_uneven(execution_, list.block_count(),
                                       PairKernel<Law, one_material, one_size, decltype(space)>{
                                           particles.view(), list.view(), table.constants.view().data, material_count_,
-                                          dt, border_.view().data, space});
+                                          dt, border, space});
             };
             // Periodic scenes are few: one kernel serves them all.
             if (domain_.is_periodic())
@@ -29,7 +31,7 @@ void ParticleContacts::sum_forces(ParticleState& particles, NeighborList& list, 
             else
                 compute.template operator()<true, false>(OpenSpace{});
         });
-    exec::for_each(execution_, particles.count(), BorderKernel{particles.view(), list.view(), border_.view().data});
+    exec::for_each(execution_, particles.count(), BorderKernel{particles.view(), list.view(), border});
 }
 
 }  // namespace gimdem

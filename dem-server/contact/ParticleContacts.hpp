@@ -45,7 +45,6 @@ private:
     std::int32_t material_count_;
     bool one_size_;
     Domain domain_;
-    exec::Buffer<BorderForce> border_;
 };
 
 }  // namespace gimdem

@@ -25,8 +25,6 @@ DemSystem::DemSystem(Case const& settings, exec::Execution execution, Materials 
     for (std::int64_t const id : particles_.id.host())
         next_id_ = std::max(next_id_, id + 1);
     neighbors_.carries_rolling = particle_contacts_.has_rolling_springs();
-    impulses_.resize(particles_.count());
-    impulses_.fill({});
     device_ = make_device_dem(execution, {settings, materials, walls, wall_contacts_, search_.skin()});
 }
 
@@ -43,6 +41,7 @@ void DemSystem::begin_coupling_step(FluidOnParticles const* fluid)
 {
     if (DeviceDem* const there = device()) return there->begin_coupling_step(fluid != nullptr);
     fluid_ = fluid;
+    impulses_.resize(fluid == nullptr ? 0 : particles_.count());
     impulses_.fill({});
     wall_impulse_.setZero();
     update_fluid_loads();
@@ -101,7 +100,7 @@ void DemSystem::update_neighbors()
     if (!search_.is_stale(particles_, neighbors_) && !wall_contacts_.is_stale(search_.skin())) return;
     auto const order = search_.build(particles_, neighbors_);
     wall_contacts_.build(particles_, search_.skin(), order);
-    permute(execution_, impulses_, order);
+    if (impulses_.size() > 0) permute(execution_, impulses_, order);
     if (on_permutation_) on_permutation_(order);
     ++rebuilds_;
 }

@@ -97,6 +97,7 @@ public:
     NeighborList const& neighbors() const { return to_look(), neighbors_; }
     WallContacts& walls() { return to_change(), wall_contacts_; }
     WallContacts const& walls() const { return to_look(), wall_contacts_; }
+    /// Of the coupling step so far; empty without a fluid.
     exec::Buffer<Impulse> const& impulses() const { return to_look(), impulses_; }
     /// Time integral of the walls' force on all particles over the coupling step so far [N s].
     Vec3 wall_impulse() const;

@@ -59,7 +59,8 @@ void DemSystem::insert(ParticleState const& more)
     if (after == before) return;
     to_change();
     particles_.resize(after);
-    impulses_.resize(after);
+    bool const has_impulses = impulses_.size() > 0;
+    if (has_impulses) impulses_.resize(after);
     for (std::int64_t i = before, k = 0; i < after; ++i, ++k)
     {
         particles_.position[i] = more.position[k];
@@ -68,7 +69,7 @@ void DemSystem::insert(ParticleState const& more)
         particles_.force[i] = particles_.torque[i] = {0, 0, 0, 0};
         particles_.material[i] = more.material[k];
         particles_.id[i] = next_id_++;
-        impulses_[i] = {};
+        if (has_impulses) impulses_[i] = {};
     }
     add_rows(neighbors_.row_offsets, before, after);
     add_rows(wall_contacts_.pairs().offsets, before, after);
@@ -103,8 +104,7 @@ std::int64_t DemSystem::remove(std::span<std::int32_t const> cause, std::vector<
               [](std::int32_t plane) { return plane; });
     particles_.permute(execution_, kept);
     particles_.resize(after);
-    permute(execution_, impulses_, kept);
-    impulses_.resize(after);
+    if (impulses_.size() > 0) permute(execution_, impulses_, kept);
     if (on_permutation_) on_permutation_(kept);
     rebuild();
     return before - after;
@@ -116,8 +116,7 @@ void DemSystem::resume(Vec3 const& wall_force)
 {
     to_change();
     particle_contacts_.set_one_size(have_one_size(particles_));
-    impulses_.resize(particles_.count());
-    impulses_.fill({});
+    impulses_.resize(0);
     next_id_ = 0;
     for (std::int64_t const id : particles_.id.host())
         next_id_ = std::max(next_id_, id + 1);

@@ -78,7 +78,7 @@ private:
     void grow(std::int64_t size)
     {
         constexpr std::size_t line = 64;
-        std::int64_t const capacity = std::max(size, capacity_ + capacity_ / 2);
+        std::int64_t const capacity = std::max(size, capacity_ + capacity_ / 8);
         std::size_t const bytes = (static_cast<std::size_t>(capacity) * sizeof(T) + line - 1) / line * line;
         std::unique_ptr<T, Free> grown(static_cast<T*>(std::aligned_alloc(line, bytes)));
         if (!grown) throw std::bad_alloc();

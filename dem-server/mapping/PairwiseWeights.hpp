@@ -77,7 +77,7 @@ struct ShareKernel
     Integral integral;
     LayerView layers;
     Quad const* position;
-    Impulse const* impulses;
+    Impulse const* impulses;  ///< null: volumes only
     double const* per_total;
     std::int32_t const* particle_offsets;  ///< particles of cell c are members[particle_offsets[c] ...)
     std::int32_t const* members;
@@ -94,7 +94,8 @@ struct ShareKernel
             Quad const x = position[p];
             double const scale = per_total[p];
             double const weight = scale > 0 ? integral(x, layers.cells[e]) * scale : (own ? 1.0 : 0.0);
-            sum.add(weight, {impulses[p].drag, sphere_volume(x.w)});
+            Quad const drag = impulses == nullptr ? Quad{0, 0, 0, 0} : impulses[p].drag;
+            sum.add(weight, {drag, sphere_volume(x.w)});
         }
         shares[e] = sum;
     }

@@ -32,11 +32,11 @@ std::span<std::int32_t const> NeighborSearch::build(ParticleState& particles, Ne
     sort_into_cells(particles);
     swap(old_.second, list.second);
     swap(old_.row_offsets, list.row_offsets);
-    swap(old_.displacement, list.displacement);
+    swap(list.spare, list.displacement);
     swap(old_.rolling_spring, list.rolling_spring);
     list_pairs(particles, list);
     if (has_springs)
-        carry_springs(old_.displacement, list, list.displacement);
+        carry_springs(list.spare, list, list.displacement);
     else
         list.displacement.fill({0, 0, 0, 0});
     if (has_springs && list.carries_rolling)
@@ -123,20 +123,23 @@ void NeighborSearch::fill(std::int64_t n, Candidates const& candidates, Near con
 void NeighborSearch::list_border(NeighborList& list)
 {
     BorderPairs& border = list.border;
-    border.slot.resize(list.pair_count());
-    border.pairs.resize(list.pair_count());
-    border_seconds_.resize(list.pair_count());
+    auto const pairs = static_cast<std::int32_t>(list.pair_count());
+    border.slot.resize(pairs);
     std::int32_t slots = 0;
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(list.pair_count()); ++k)
+    for (std::int32_t k = 0; k < pairs; ++k)
     {
         bool const crosses = list.first[k] / NeighborList::block != list.second[k] / NeighborList::block;
         border.slot[k] = crosses ? slots : -1;
-        border.pairs[slots] = k;
-        border_seconds_[slots] = list.second[k];
         slots += crosses;
     }
     border.pairs.resize(slots);
     border_seconds_.resize(slots);
+    for (std::int32_t k = 0; k < pairs; ++k)
+        if (std::int32_t const slot = border.slot[k]; slot >= 0)
+        {
+            border.pairs[slot] = k;
+            border_seconds_[slot] = list.second[k];
+        }
     exec::group_by_key(execution_, border_seconds_.host(), list.row_offsets.size() - 1, border.by_second);
     for (std::int32_t& member : border.by_second.members.host())
         member = border.pairs[member];

@@ -49,6 +49,7 @@ struct NeighborList
     exec::Buffer<Quad> displacement;     ///< shape=(n_pairs,), tangential spring of the pair [m]
     exec::Buffer<Quad> rolling_spring;   ///< shape=(n_pairs,), torque on the first [N m]; see carries_rolling
     exec::Buffer<std::uint8_t> touches;  ///< shape=(n_pairs,), 1 where the pair touched when it was last looked at
+    exec::Buffer<Quad> spare;            ///< means nothing between calls: room for whoever works on the list
     exec::Buffer<Quad> built_at;         ///< shape=(n_particles,), positions when the list was built [m]
 
     bool carries_rolling = false;  ///< whether rolling_spring is kept; otherwise it is empty

@@ -80,6 +80,7 @@ public:
     void begin_coupling_step(bool fluid) override
     {
         with_fluid_ = fluid;
+        particles_.impulses.resize(device_, fluid ? particles_.count() : 0);
         particles_.impulses.zero(device_);
         walls_.clear_impulse(particles_.count());
         if (fluid) fluid_.apply(particles_);

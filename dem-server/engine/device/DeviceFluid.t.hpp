@@ -226,7 +226,7 @@ void DeviceFluid<Device>::sum_into_cells(DeviceParticles<Device> const& particle
 template <class Device>
 ImpulseSums DeviceFluid<Device>::impulse_sums(DeviceParticles<Device> const& particles)
 {
-    return sum_impulses_(particles.count(), ImpulseOf{particles.impulses.data(), particles.position.data()},
+    return sum_impulses_(particles.impulses.size(), ImpulseOf{particles.impulses.data(), particles.position.data()},
                          Add<ImpulseSums>{});
 }
 

@@ -48,7 +48,7 @@ public:
     Array<Quad> position, velocity, angular_velocity, force, torque;
     Array<std::int32_t> material;
     Array<std::int64_t> id;
-    Array<Impulse> impulses;
+    Array<Impulse> impulses;      ///< empty without a fluid
     Array<std::int32_t> cell_of;  ///< of the fluid's mesh; empty until particles are located
 
     std::int64_t count() const { return position.size(); }
@@ -92,7 +92,7 @@ public:
         permute_quads_(device, angular_velocity, order);
         permute_numbers_(device, material, order);
         permute_ids_(device, id, order);
-        permute_impulses_(device, impulses, order);
+        if (impulses.size() > 0) permute_impulses_(device, impulses, order);
         if (cell_of.size() == count()) permute_numbers_(device, cell_of, order);
     }
 

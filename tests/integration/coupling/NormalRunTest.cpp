@@ -162,7 +162,7 @@ TEST(CoupledRun, PistonOfTheCaseFileSweepsParticlesAlong)
     client.finish("all steps done");
     server.expect_end(0, "");
 
-    output::SnapshotReader const state(server.result("particles_last.h5"), "particles");
+    output::SnapshotReader const state(server.checkpoints().back(), "checkpoint");
     auto const position = state.doubles("position"), velocity = state.doubles("velocity");
     double lowest = 1, fastest = 0;
     for (std::size_t i = 0; i < position.size(); i += 4)

@@ -157,5 +157,37 @@ class Alone(FrontDoorTest):
         self.assert_one_error(err, "left a checkpoint")
 
 
+class Drum(FrontDoorTest):
+    """cases/rotating-drum, for an instant."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.case = self.folder / "case"
+        shutil.copytree(ROOT / "cases" / "rotating-drum", self.case, ignore=shutil.ignore_patterns("runs"))
+        self.case_file = self.case / "case.toml"
+        self.text = self.case_file.read_text().replace("until = 3.0", "until = 0.02")
+
+    def run_with(self, text: str) -> tuple[int, str, str]:
+        self.case_file.write_text(text)
+        return self.gimdem("run", self.case, "--threads", "1")
+
+    def test_holds_its_bed(self) -> None:
+        code, out, err = self.run_with(self.text)
+        self.assertEqual(code, 0, err)
+        self.assertIn("figure: particles = 3000 ", out)
+        self.assertIn("figure: particles_removed = 0 ", out)
+
+    def test_walls_that_cannot_be_are_refused(self) -> None:
+        too_small = self.text.replace("radius = 0.05 ", "radius = 0.04 ")
+        self.assertNotEqual(too_small, self.text)
+        code, _, err = self.run_with(too_small)
+        self.assertEqual(code, 1)
+        self.assert_one_error(err, "particle 0", 'starts behind wall "drum"')
+        code, _, err = self.run_with(
+            self.text + '[[wall]]\nname = "blade"\nshape = "stl"\nfile = "blade.stl"\nopen = true\n')
+        self.assertEqual(code, 1)
+        self.assert_one_error(err, "blade.stl does not exist", "[[wall]] file")
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -37,12 +37,14 @@ TEST(PeersBed, FallsAndSettlesLikeTheirs)
     bed->run(12'000, PeersBed::dt);
     BedFigures const rest = figures_of(*bed);
     print("0.54s", rest);
-    // Bands around three codes, each on one or two ranks: the packing is chaotic, its means are not.
+    // Bands around three codes, each on one or two ranks. The packing is chaotic: positions moved by 1e-12 m at the
+    // start end in another one. Five of ours had solid fractions of 0.6416 with a deviation of 0.0010, six of theirs
+    // 0.6404 with 0.0008: three deviations for one packing.
     EXPECT_LT(rest.kinetic_energy, 1e-8);
     EXPECT_NEAR(rest.twice_mean_height, 0.0740, 0.0002);
     EXPECT_NEAR(rest.coordination, 5.835, 0.035);
     EXPECT_NEAR(rest.mean_overlap, 0.02495, 0.00025);
-    EXPECT_NEAR(rest.solid_fraction, 0.640, 0.002);
+    EXPECT_NEAR(rest.solid_fraction, 0.6404, 0.003);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <optional>
 
+#include "StlText.hpp"
 #include "TestCase.hpp"
 #include "core/Error.hpp"
 #include "engine/DomainBounds.hpp"
@@ -62,7 +63,7 @@ struct ShortRun
         : settings(input),
           materials(settings),
           mesh(gimdem::box_mesh(settings.domain)),
-          walls(mesh, {}, 2e-3),
+          walls(mesh, {}, 2e-3, settings.wall),
           bounds(settings.domain),
           inlets(gimdem::make_inlets(settings, materials)),
           system(settings, execution, materials, walls,
@@ -70,6 +71,7 @@ struct ShortRun
     {
         system.prepare();
         system.begin_coupling_step(nullptr);
+        system.let_walls_move(true);
     }
     void run_to(std::int64_t step)
     {
@@ -196,6 +198,47 @@ TEST_F(CheckpointTest, RestartedRunEndsBitwiseEqualForAnyThreadCount)
             expect_same(through, after);
         }
     }
+}
+
+TEST_F(CheckpointTest, MovingWallsComeBack)
+{
+    TemporaryStl const sheet(floor_soup(0.004, 0.016, 5, 0.0225));
+    Case settings = busy_case();
+    auto floor = plane_wall({0, 0, 0}, {0, -0.02, 1});
+    floor.vibration = {{0, 0, 1}, 2e-4, 60, 0.0};
+    auto blade = stl_wall(sheet, true);
+    blade.rotation = {{1, 0, 0}, {0, 0.01, 0.0225}, 20};
+    auto pipe = tube_wall(1.5e-3, false);
+    pipe.point = {0, 0, 0.0225};
+    pipe.velocity = {0.2, 0, -0.5};
+    settings.wall = {floor, blade, pipe};
+    settings.dem.skin = 0.8;  // lists live for some steps
+
+    ShortRun through(serial, settings), before(serial, settings);
+    through.run_to(500);
+    auto const& walls = before.system.walls();
+    // Walls that stand where they were listed are no test.
+    for (std::int64_t step = 200; step < 400 && walls.time() == walls.built_time(); ++step)
+        before.run_to(step);
+    ASSERT_NE(walls.time(), walls.built_time());
+    EXPECT_GT(walls.pairs().plane.size(), 15);
+    before.write(file);
+    for (auto const& execution : {serial, two_threads, three_threads})
+    {
+        ShortRun after(execution, settings);
+        after.read(file);
+        expect_same(before, after);
+        EXPECT_EQ(after.system.walls().time(), walls.time());
+        EXPECT_EQ(after.system.walls().built_time(), walls.built_time());
+        auto const rebuilds = after.system.rebuilds();
+        after.run_to(500);
+        expect_same(through, after);
+        EXPECT_EQ(after.system.rebuilds() - rebuilds, through.system.rebuilds() - before.system.rebuilds());
+    }
+
+    // Another shape in the same file is another case.
+    std::ofstream(sheet.path, std::ios::binary) << ascii_stl(floor_soup(0.004, 0.016, 6, 0.0225));
+    EXPECT_NE(refusal(settings), "");
 }
 
 TEST_F(CheckpointTest, RollingSpringsAndPeriodicAxesComeBack)
