@@ -25,4 +25,4 @@ endif()
 
 add_feature_info(native GIMDEM_NATIVE "tuned for this machine's processor")
 add_feature_info(sanitizers GIMDEM_SANITIZE "address and undefined-behaviour sanitizers")
-add_feature_info(cuda GIMDEM_CUDA "laws and integrator compiled with nvcc; no CUDA backend yet")
+add_feature_info(cuda GIMDEM_CUDA "backend for GPUs")

@@ -31,6 +31,12 @@ def build(targets: Sequence[str] = ()) -> None:
         compile_targets(folder, list(targets), log)
 
 
+def is_built_with_cuda() -> bool:
+    """Whether the build folder was configured with the backend for GPUs."""
+    cache = build_dir() / "CMakeCache.txt"
+    return cache.exists() and "GIMDEM_CUDA:BOOL=ON" in cache.read_text()
+
+
 @contextmanager
 def locked(path: Path) -> Iterator[None]:
     """Two builds in one folder take turns."""

@@ -34,6 +34,7 @@ class CaseDescription:
     until: float  # [s]
     endpoint: str
     timeout: float  # a silent peer is dead after this [s]
+    device: str = "auto"  # where the particles are computed
 
     @property
     def folder(self) -> Path:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import openfoam
-from build import build
+from build import build, is_built_with_cuda
 from case_folder import CLIENTS, CaseDescription, check_grid, check_openfoam_dictionaries, describe, find_case_file
 from console import UserError, openfoam_client_binary, say, server_binary, shown
 from endpoint import Endpoint
@@ -73,8 +73,9 @@ def refuse_what_is_to_come(client: str | None, device: str, ranks: int) -> None:
     """Options whose meaning is settled but that nothing implements here."""
     if client == "reference":
         raise UserError("the reference client is not part of this version; use --client openfoam", 2)
-    if device == "cuda":
-        raise UserError("this version computes particles on the CPU only; use --device cpu, or leave it out", 2)
+    if device == "cuda" and not is_built_with_cuda():
+        raise UserError("this build computes particles on the CPU only; use --device cpu, or leave it out, or build "
+                        "with CUDA as docs/gpu.md says", 2)
     if ranks != 1:
         raise UserError(f"this version runs one client process, not {ranks}; leave out --ranks", 2)
 
@@ -93,6 +94,7 @@ def choose(case: CaseDescription, options: argparse.Namespace) -> CaseDescriptio
     case.client = options.client or case.client
     case.schedule = options.schedule or case.schedule
     case.until = options.until or case.until
+    case.device = options.device
     refuse_what_is_to_come(case.client, "auto", 1)
     return case
 
@@ -126,6 +128,7 @@ class Run:
         command = [
             str(server_binary()), "--case", str(self.case.file), "--run", str(self.folder), "--endpoint",
             self.endpoint.address, "--until", repr(self.case.until), "--schedule", self.case.schedule,
+            "--device", self.case.device,
         ]
         if self.threads is not None:
             command += ["--threads", str(self.threads)]

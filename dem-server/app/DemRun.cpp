@@ -47,8 +47,8 @@ public:
                  largest_radius(settings, particles) + settings.dem.skin * smallest_radius(settings, particles),
                  settings.wall),
           inlets_(make_inlets(settings, materials)),
-          system_(settings, exec::make_execution(settings.dem.backend, settings.dem.threads), materials, walls_,
-                  std::move(particles))
+          system_(settings, exec::make_execution(settings.dem.backend, settings.dem.threads, settings.dem.sorting),
+                  materials, walls_, std::move(particles))
     {
         check_particles_against_walls(system_.particles(), walls_);
         system_.prepare();

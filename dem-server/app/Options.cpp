@@ -5,9 +5,23 @@
 #include <cmath>
 
 #include "core/Error.hpp"
+#include "exec/Execution.hpp"
 
 namespace gimdem::app
 {
+
+namespace
+{
+
+/// The case file's backend, or another where it is not one of the device.
+std::string backend_on(std::string const& device, std::string const& backend)
+{
+    bool const on_gpu = device == "cuda" || (device == "auto" && exec::cuda_is_there());
+    if (on_gpu) return "cuda";
+    return backend == "cuda" ? "openmp" : backend;
+}
+
+}  // namespace
 
 std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
 {
@@ -23,6 +37,9 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
     app.add_option("--until", options.until, "simulated time [s]")->check(CLI::PositiveNumber);
     app.add_option("--threads", options.threads, "threads for the particles, 0: all cores")
         ->check(CLI::NonNegativeNumber);
+    app.add_option("--device", options.device,
+                   "where the particles are computed: cuda, cpu, or auto: cuda if it is there")
+        ->check(CLI::IsMember({"auto", "cuda", "cpu"}));
     app.add_option("--restart", options.restart, "checkpoint to go on from");
     try
     {
@@ -48,6 +65,7 @@ Case read_case_with(Options const& options)
         settings.run.until = *options.until;
     }
     if (options.threads) settings.dem.threads = *options.threads;
+    if (options.device) settings.dem.backend = backend_on(*options.device, settings.dem.backend);
     return settings;
 }
 

@@ -54,7 +54,7 @@ exec::Execution execution_for(Case const& settings, coupling::Schedule schedule)
 {
     int threads = settings.dem.threads;
     if (threads == 0 && schedule == coupling::Schedule::overlapped) threads = std::max(1, exec::processor_count() - 1);
-    return exec::make_execution(settings.dem.backend, threads);
+    return exec::make_execution(settings.dem.backend, threads, settings.dem.sorting);
 }
 
 PolyMesh take_mesh(coupling::Server& server)

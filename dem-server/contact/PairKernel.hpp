@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "contact/ContactModel.hpp"
+#include "contact/Meeting.hpp"
 #include "exec/Octet.hpp"
 #include "particles/Materials.hpp"
 #include "particles/ParticleState.hpp"
@@ -43,11 +44,8 @@ struct TouchingPairs
 };
 
 /// Where eight particles are, and how they move.
-struct OctetOfParticles
+struct OctetOfParticles : MovingSphere<exec::Octet>
 {
-    Vector3<exec::Octet> position, velocity, spin;
-    exec::Octet radius, inverse_mass, inverse_inertia;
-
     OctetOfParticles(ParticleView const& particles, std::int32_t const* which)
     {
         auto const x = exec::load(particles.position, which);
@@ -143,7 +141,7 @@ private:
             j[n] = list.second[pair[n]];
         }
         OctetOfParticles const a(particles, i), b(particles, j);
-        ContactGeometry<Octet> const contact = meet(a, b);
+        ContactGeometry<Octet> const contact = meet<Law, one_size, Octet>(a, b, space);
         auto const old = exec::load(list.displacement, pair);
         ContactSprings<Octet> springs{{old.x, old.y, old.z}};
         if constexpr (Law::has_rolling_spring)
@@ -203,44 +201,6 @@ private:
                 row[n] = particles.material[i[n]] * material_count + particles.material[j[n]];
             return Law::template apply<Octet>(octet_of<Law>(constants, row), dt, contact, springs);
         }
-    }
-
-    ContactGeometry<Octet> meet(OctetOfParticles const& a, OctetOfParticles const& b) const
-    {
-        Vector3<Octet> between = a.position - b.position;
-        space.shorten(between.x, between.y, between.z);
-        Octet const reach = a.radius + b.radius;
-        Octet const distance = between.dot(between).sqrt();
-        // Two centres in one place have no normal; any direction parts them.
-        auto const apart = exec::greater(distance, Octet::Zero());
-        Octet const one = Octet::Ones();
-        Octet const per_distance = one / exec::choose(apart, distance, one);
-        Vector3<Octet> normal = per_distance * between;
-        normal.z = exec::choose(apart, normal.z, one);
-        Octet const overlap = reach - distance;
-        Vector3<Octet> const spin = Octet(a.radius - overlap / 2) * a.spin + Octet(b.radius - overlap / 2) * b.spin;
-        ContactGeometry<Octet> contact{.normal = normal,
-                                       .overlap = overlap,
-                                       .velocity = a.velocity - b.velocity - spin.cross(normal),
-                                       .radius_eff = {},
-                                       .mass_eff = {}};
-        if constexpr (one_size)
-        {
-            contact.radius_eff = Octet::Constant(a.radius[0] / 2);
-            contact.mass_eff = Octet::Constant(0.5 / a.inverse_mass[0]);
-        }
-        else
-        {
-            contact.radius_eff = a.radius * b.radius / reach;
-            contact.mass_eff = 1 / (a.inverse_mass + b.inverse_mass);
-        }
-        if constexpr (Law::rolls)
-        {
-            contact.spin = a.spin - b.spin;
-            contact.inverse_inertia = a.inverse_inertia + b.inverse_inertia;
-        }
-        if constexpr (Law::coheres) contact.per_distance = per_distance;
-        return contact;
     }
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "engine/InletFlow.hpp"
@@ -58,6 +59,41 @@ CoupledEngine::CoupledEngine(Case const& settings, exec::Execution execution, Po
     for (std::int32_t f = 0; f < mesh.face_count(); ++f)
         wall_faces_[f] = walls.is_wall_face(f);
     system_.set_permutation_listener([this](std::span<std::int32_t const> order) { mapper_.permute(order); });
+    if (DeviceDem* const device = system_.device())
+        device->set_fluid({settings, fluid, mesh, mapper_, wall_faces_}, std::as_const(system_).particles());
+}
+
+void CoupledEngine::load_fluid(coupling::FluidFields const& fluid)
+{
+    if (DeviceDem* const device = system_.device())
+        device->load_fluid(fluid);
+    else
+        forces_.load(fluid, mesh_.cell_count());
+}
+
+// Where some have left, the host's mapper finds out through which faces.
+void CoupledEngine::locate()
+{
+    DeviceDem* const device = system_.device();
+    if (device == nullptr) return mapper_.locate(std::as_const(system_).particles(), wall_faces_);
+    exec::Buffer<std::int32_t> cells;
+    bool const all_are_inside = device->locate();
+    if (!all_are_inside) device->download_cells(cells);
+    mapper_.take_cells(std::move(cells));
+    if (!all_are_inside) mapper_.locate(std::as_const(system_).particles(), wall_faces_);
+}
+
+void CoupledEngine::sum_into_cells()
+{
+    if (DeviceDem* const device = system_.device()) return device->sum_into_cells(sums_);
+    mapper_.compute_weights(system_.particles());
+    mapper_.sum_into_cells(system_.particles(), system_.impulses(), sums_);
+}
+
+std::int64_t CoupledEngine::particle_clips() const
+{
+    DeviceDem* const device = system_.device();
+    return device == nullptr ? forces_.clipped() : device->clipped();
 }
 
 StepReport CoupledEngine::map_initial_state()
@@ -66,11 +102,10 @@ StepReport CoupledEngine::map_initial_state()
     std::vector<double> const still(static_cast<std::size_t>(mesh_.cell_count()) * 3, 0.0);
     coupling::FluidFields fluid;
     fluid.velocity = still;
-    forces_.load(fluid, mesh_.cell_count());
-    mapper_.locate(system_.particles(), wall_faces_);
+    load_fluid(fluid);
+    locate();
     if (!mapper_.left().empty()) Mapper::refuse_outside(system_.particles(), mapper_.left().front().particle);
-    mapper_.compute_weights(system_.particles());
-    mapper_.sum_into_cells(system_.particles(), system_.impulses(), sums_);
+    sum_into_cells();
     compute_void_fraction(report);
 
     // The drag as it is now, as if it had acted for a second.
@@ -85,7 +120,7 @@ StepReport CoupledEngine::advance(coupling::Step const& step, coupling::FluidFie
     StepReport report;
     auto const start = std::chrono::steady_clock::now();
     report.dem_steps = std::max<std::int64_t>(1, std::llround(std::ceil(step.dt / settings_.dem.time_step - 1e-9)));
-    forces_.load(fluid, mesh_.cell_count());
+    load_fluid(fluid);
     insert_due(step.time);
     system_.begin_coupling_step(&on_particles_);
     system_.let_walls_move(true);
@@ -104,7 +139,7 @@ StepReport CoupledEngine::advance(coupling::Step const& step, coupling::FluidFie
 void CoupledEngine::insert_due(double time)
 {
     if (inlets_ == nullptr || insert_from(*inlets_, time, system_) == 0) return;
-    mapper_.locate(system_.particles(), wall_faces_);
+    locate();
     if (!mapper_.left().empty()) Mapper::refuse_outside(system_.particles(), mapper_.left().front().particle);
 }
 
@@ -144,9 +179,8 @@ coupling::SolidFields CoupledEngine::fields() const
 
 void CoupledEngine::map_particles(double dt, coupling::FluidFields const& fluid, StepReport& report)
 {
-    mapper_.locate(system_.particles(), wall_faces_);
-    mapper_.compute_weights(system_.particles());
-    mapper_.sum_into_cells(system_.particles(), system_.impulses(), sums_);
+    locate();
+    sum_into_cells();
     compute_void_fraction(report);
     compute_momentum_exchange(dt, fluid);
     check_balance(dt, report);
@@ -166,6 +200,7 @@ void CoupledEngine::compute_void_fraction(StepReport& report)
         report.void_fraction_min = std::min(report.void_fraction_min, void_fraction_[c]);
         report.void_fraction_max = std::max(report.void_fraction_max, void_fraction_[c]);
     }
+    if (DeviceDem* const device = system_.device()) device->set_void_fraction(void_fraction_);
 }
 
 // S = -(1/V) sum w F_d, K = (1/V) sum w k, and K u_p = S + K v with the fluid velocity v of the cell that the drag was
@@ -191,15 +226,24 @@ void CoupledEngine::compute_momentum_exchange(double dt, coupling::FluidFields c
     }
 }
 
+ImpulseSums CoupledEngine::impulse_sums() const
+{
+    if (DeviceDem* const device = system_.device()) return device->impulse_sums();
+    Impulse const* const impulse = system_.impulses().view().data;
+    Quad const* const x = std::as_const(system_).particles().position.view().data;
+    return exec::reduce(
+        execution_, system_.impulses().size(), ImpulseSums{},
+        [=](std::int64_t p) {
+            return ImpulseSums{impulse[p].drag, impulse[p].drag.xyz().norm(), sphere_volume(x[p].w)};
+        },
+        [](ImpulseSums const& a, ImpulseSums const& b) { return a + b; });
+}
+
 void CoupledEngine::check_balance(double dt, StepReport& report) const
 {
-    std::int64_t const n = system_.particles().count();
-    Impulse const* const impulse = system_.impulses().view().data;
-    Quad const* const x = system_.particles().position.view().data;
-    Vec3 const drag = vector_sum(execution_, n, [=](std::int64_t p) { return Vec3(impulse[p].drag.xyz() / dt); });
-    double const magnitude =
-        exec::sum(execution_, n, [=](std::int64_t p) { return impulse[p].drag.xyz().norm() / dt; });
-    double const solid = exec::sum(execution_, n, [=](std::int64_t p) { return sphere_volume(x[p].w); });
+    ImpulseSums const sums = impulse_sums();
+    Vec3 const drag = sums.drag.xyz() / dt;
+    double const magnitude = sums.magnitude / dt;
 
     double const* const s = momentum_source_.view().data;
     Quad const* const cell = mesh_.view().cell;
@@ -212,7 +256,7 @@ void CoupledEngine::check_balance(double dt, StepReport& report) const
     report.drag_force = constant(drag);
     report.wall_force = constant(system_.wall_impulse() / dt);
     report.momentum_imbalance = magnitude > 0 ? (given + drag).norm() / magnitude : 0;
-    report.volume_imbalance = solid > 0 ? std::abs(mapped - solid) / solid : 0;
+    report.volume_imbalance = sums.volume > 0 ? std::abs(mapped - sums.volume) / sums.volume : 0;
 }
 
 }  // namespace gimdem

@@ -7,6 +7,7 @@
 
 #include "core/Case.hpp"
 #include "engine/DemSystem.hpp"
+#include "engine/device/DeviceDem.hpp"
 #include "gimdem/coupling/Types.hpp"
 #include "mapping/Mapper.hpp"
 #include "particles/Inlet.hpp"
@@ -49,10 +50,14 @@ public:
     /// Particles that come during the run; `inlets` outlives the engine.
     void set_inlets(std::vector<Inlet>& inlets) { inlets_ = &inlets; }
 
-    std::int64_t particle_clips() const { return forces_.clipped(); }
+    std::int64_t particle_clips() const;
     exec::Buffer<double> const& void_fraction() const { return void_fraction_; }
 
 private:
+    void load_fluid(coupling::FluidFields const& fluid);
+    void locate();
+    void sum_into_cells();
+    ImpulseSums impulse_sums() const;
     void map_particles(double dt, coupling::FluidFields const& fluid, StepReport& report);
     void compute_void_fraction(StepReport& report);
     void compute_momentum_exchange(double dt, coupling::FluidFields const& fluid);

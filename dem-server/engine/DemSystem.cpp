@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/device/DeviceDem.hpp"
 #include "exec/ForEach.hpp"
 #include "integrate/VelocityVerlet.hpp"
 #include "particles/SizeDistribution.hpp"
@@ -24,16 +25,21 @@ DemSystem::DemSystem(Case const& settings, exec::Execution execution, Materials 
     for (std::int64_t const id : particles_.id.host())
         next_id_ = std::max(next_id_, id + 1);
     neighbors_.carries_rolling = particle_contacts_.has_rolling_springs();
+    device_ = make_device_dem(execution, {settings, materials, walls, wall_contacts_, search_.skin()});
 }
+
+DemSystem::~DemSystem() = default;
 
 void DemSystem::prepare()
 {
+    if (DeviceDem* const there = device()) return refuse_if(!there->prepare());
     update_neighbors();
     sum_contact_forces(0);
 }
 
 void DemSystem::begin_coupling_step(FluidOnParticles const* fluid)
 {
+    if (DeviceDem* const there = device()) return there->begin_coupling_step(fluid != nullptr);
     fluid_ = fluid;
     impulses_.resize(fluid == nullptr ? 0 : particles_.count());
     impulses_.fill({});
@@ -43,6 +49,7 @@ void DemSystem::begin_coupling_step(FluidOnParticles const* fluid)
 
 Vec3 DemSystem::steady_fluid_force() const
 {
+    if (device_ != nullptr) return device_->steady_fluid_force();
     Vec3 sum = Vec3::Zero();
     for (FluidLoad const& load : loads_.host())
         sum += load.steady.xyz();
@@ -51,6 +58,7 @@ Vec3 DemSystem::steady_fluid_force() const
 
 void DemSystem::take_impulses_of_one_second()
 {
+    if (DeviceDem* const there = device()) return there->take_impulses_of_one_second();
     for (std::int64_t i = 0; i < particles_.count(); ++i)
     {
         double const k = loads_[i].fluid_velocity.w;
@@ -60,9 +68,10 @@ void DemSystem::take_impulses_of_one_second()
 
 void DemSystem::step(double dt)
 {
+    if (walls_move_) wall_contacts_.move_to(wall_contacts_.time() + dt);
+    if (DeviceDem* const there = device()) return refuse_if(!there->step(dt));
     half_kick(dt / 2);
     drift(dt);
-    if (walls_move_) wall_contacts_.move_to(wall_contacts_.time() + dt);
     update_neighbors();
     sum_contact_forces(dt);
     update_fluid_loads();
@@ -106,6 +115,47 @@ void DemSystem::update_fluid_loads()
 {
     if (fluid_ != nullptr)
         fluid_->forces.apply(particles_, fluid_->mesh, fluid_->cell_of, fluid_->void_fraction, loads_);
+}
+
+Vec3 DemSystem::wall_impulse() const
+{
+    return device_ == nullptr ? wall_impulse_ : device_->wall_impulse();
+}
+
+std::int64_t DemSystem::rebuilds() const
+{
+    return device_ == nullptr ? rebuilds_ : device_->rebuilds();
+}
+
+DeviceDem* DemSystem::device()
+{
+    if (device_ == nullptr) return nullptr;
+    if (device_is_old_) device_->upload({particles_, neighbors_, wall_contacts_.pairs(), impulses_});
+    device_is_old_ = false;
+    host_is_old_ = true;
+    return device_.get();
+}
+
+// The host's copy is a cache: bringing it up to date changes nothing that can be seen.
+void DemSystem::to_look() const
+{
+    if (!host_is_old_) return;
+    auto& self = const_cast<DemSystem&>(*this);
+    device_->download({self.particles_, self.neighbors_, self.wall_contacts_.pairs(), self.impulses_});
+    host_is_old_ = false;
+}
+
+void DemSystem::to_change()
+{
+    if (device_ == nullptr) return;
+    to_look();
+    device_is_old_ = true;
+}
+
+/// Throws UserError, naming a particle, where one has no finite position.
+void DemSystem::refuse_if(bool diverged)
+{
+    if (diverged) Extent::of(execution_, std::as_const(*this).particles());
 }
 
 bool have_one_size(ParticleState const& particles)

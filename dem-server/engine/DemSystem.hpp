@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -40,11 +41,16 @@ struct Removed
 };
 using RemovedByCause = std::map<std::string, Removed>;
 
+class DeviceDem;
+
+/// Where the execution names a device, the state lives there. The host's copy is brought up to date when it is asked
+/// for, and goes back before the next step where it could have been changed: prefer the const accessors.
 class DemSystem
 {
 public:
     DemSystem(Case const& settings, exec::Execution execution, Materials const& materials, WallGeometry const& walls,
               ParticleState particles);
+    ~DemSystem();
 
     /// Forces at the present positions, springs unmoved: call once before the first step and after a restart.
     void prepare();
@@ -85,17 +91,20 @@ public:
     std::int64_t next_id() const { return next_id_; }
     void set_next_id(std::int64_t id) { next_id_ = id; }
 
-    ParticleState& particles() { return particles_; }
-    ParticleState const& particles() const { return particles_; }
-    NeighborList& neighbors() { return neighbors_; }
-    NeighborList const& neighbors() const { return neighbors_; }
-    WallContacts& walls() { return wall_contacts_; }
-    WallContacts const& walls() const { return wall_contacts_; }
+    ParticleState& particles() { return to_change(), particles_; }
+    ParticleState const& particles() const { return to_look(), particles_; }
+    NeighborList& neighbors() { return to_change(), neighbors_; }
+    NeighborList const& neighbors() const { return to_look(), neighbors_; }
+    WallContacts& walls() { return to_change(), wall_contacts_; }
+    WallContacts const& walls() const { return to_look(), wall_contacts_; }
     /// Of the coupling step so far; empty without a fluid.
-    exec::Buffer<Impulse> const& impulses() const { return impulses_; }
+    exec::Buffer<Impulse> const& impulses() const { return to_look(), impulses_; }
     /// Time integral of the walls' force on all particles over the coupling step so far [N s].
-    Vec3 wall_impulse() const { return wall_impulse_; }
-    std::int64_t rebuilds() const { return rebuilds_; }
+    Vec3 wall_impulse() const;
+    std::int64_t rebuilds() const;
+
+    /// The device that the particles are on, up to date; null where they are on the host.
+    DeviceDem* device();
 
     /// Particles change places when the neighbour list is rebuilt, and numbers when some are added or removed:
     /// `listener` is told order, with the particle now at i having been at order[i]; order[i] beyond the old count is a
@@ -111,6 +120,9 @@ private:
     void update_neighbors();
     void sum_contact_forces(double dt);
     void update_fluid_loads();
+    void to_look() const;
+    void to_change();
+    void refuse_if(bool diverged);
 
     exec::Execution execution_;
     Constant3 gravity_;
@@ -128,6 +140,9 @@ private:
     std::int64_t rebuilds_ = 0;
     std::int64_t next_id_ = 0;
     RemovedByCause removed_;
+    std::unique_ptr<DeviceDem> device_;  ///< null: all is on the host
+    bool device_is_old_ = true;          ///< the host has what the device has not
+    mutable bool host_is_old_ = false;   ///< the other way round
 };
 
 /// True for particles that share one radius and one mass.

@@ -57,6 +57,7 @@ void DemSystem::insert(ParticleState const& more)
 {
     std::int64_t const before = particles_.count(), after = before + more.count();
     if (after == before) return;
+    to_change();
     particles_.resize(after);
     bool const has_impulses = impulses_.size() > 0;
     if (has_impulses) impulses_.resize(after);
@@ -77,6 +78,7 @@ void DemSystem::insert(ParticleState const& more)
 
 std::int64_t DemSystem::remove(std::span<std::int32_t const> cause, std::vector<std::string> const& causes)
 {
+    to_change();
     std::int64_t const before = particles_.count();
     std::vector<std::int32_t> kept, new_number(static_cast<std::size_t>(before), -1);
     for (std::int32_t i = 0; i < before; ++i)
@@ -112,6 +114,7 @@ std::int64_t DemSystem::remove(std::span<std::int32_t const> cause, std::vector<
 // pairs that it finds are then those of the state, in the same order of summation.
 void DemSystem::resume(Vec3 const& wall_force)
 {
+    to_change();
     particle_contacts_.set_one_size(have_one_size(particles_));
     impulses_.resize(0);
     next_id_ = 0;
@@ -130,6 +133,7 @@ void DemSystem::resume(Vec3 const& wall_force)
 
 void DemSystem::rebuild()
 {
+    to_change();
     particle_contacts_.set_one_size(have_one_size(particles_));
     // Stale for any number of particles; none at all have no list to build.
     neighbors_.built_at.resize(0);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/Error.hpp"
 #include "mesh/BoxDomain.hpp"
@@ -56,7 +57,7 @@ void DomainBounds::check_start(ParticleState const& particles) const
 
 std::int64_t DomainBounds::remove_leavers(DemSystem& system) const
 {
-    ParticleState const& particles = system.particles();
+    ParticleState const& particles = std::as_const(system).particles();
     std::vector<std::int32_t> cause(static_cast<std::size_t>(particles.count()), -1);
     bool any = false;
     for (std::size_t i = 0; i < cause.size(); ++i)

@@ -21,7 +21,14 @@ int processor_count()
 #endif
 }
 
-Execution make_execution(std::string const& backend, int threads)
+#ifndef GIMDEM_HAS_CUDA
+bool cuda_is_there()
+{
+    return false;
+}
+#endif
+
+Execution make_execution(std::string const& backend, int threads, std::string const& sorting)
 {
     if (backend == "serial") return {Backend::serial, 1};
 #ifdef _OPENMP
@@ -30,8 +37,15 @@ Execution make_execution(std::string const& backend, int threads)
     if (backend == "openmp")
         throw UserError("backend \"openmp\" is not in this build (compiled without OpenMP); use backend \"serial\"");
 #endif
+    if (backend == "cuda" && !cuda_is_there())
+        throw UserError(
+            "backend \"cuda\": no GPU can be used (there is none that works, or this build has no CUDA: see "
+            "docs/gpu.md); run with --device cpu");
+    if (backend == "cuda")
+        return {Backend::cuda, threads > 0 ? threads : processor_count(),
+                sorting == "plain" ? Sorting::plain : Sorting::library};
     throw UserError("unknown backend \"" + backend +
-                    "\" (it decides where the particles are computed); use \"serial\" or \"openmp\"");
+                    "\" (it decides where the particles are computed); use \"serial\", \"openmp\" or \"cuda\"");
 }
 
 }  // namespace gimdem::exec

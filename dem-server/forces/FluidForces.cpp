@@ -4,34 +4,13 @@
 #include <algorithm>
 
 #include "exec/Reduce.hpp"
-#include "forces/Beetstra.hpp"
+#include "forces/LoadLaw.hpp"
 
 namespace gimdem
 {
 
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
-
-/// The fluid per cell, as kernels see it.
-struct FluidView
-{
-    Quad const* velocity;
-    double const* velocity_gradient;
-    Quad const* pressure_gradient;
-    Quad const* void_gradient;
-    double density, viscosity;
-
-    /// v_i + grad v_i . (x - x_i), theory.md (D.15).
-    GIMDEM_HD Vec3 velocity_at(std::int32_t cell, Vec3 const& dx) const
-    {
-        double const* const g = velocity_gradient + 9 * static_cast<std::int64_t>(cell);
-        return velocity[cell].xyz() + Vec3(dx.x() * g[0] + dx.y() * g[3] + dx.z() * g[6],
-                                           dx.x() * g[1] + dx.y() * g[4] + dx.z() * g[7],
-                                           dx.x() * g[2] + dx.y() * g[5] + dx.z() * g[8]);
-    }
-};
 
 /// Load of the particles of one octet, theory.md (D.15)-(D.18).
 struct LoadKernel
@@ -69,7 +48,7 @@ struct LoadKernel
             diameter[k] = 2 * x.w;
         }
         if (!drag) return;
-        exec::Octet const coefficients = coefficient(e, slip, diameter);
+        exec::Octet const coefficients = fluid.drag_coefficient(e, slip, diameter);
         for (int k = 0; k < count; ++k)
             loads[first + k].fluid_velocity.w = coefficients[k];
     }
@@ -84,13 +63,6 @@ private:
         double const e = linear < void_fraction_minimum ? void_fraction_minimum : (linear > 1 ? 1.0 : linear);
         was_clipped[p] = e != linear;
         return e;
-    }
-
-    /// k [kg/s] of F_d = k (v_f - v_p), (D.16), at a slip [m/s] and a diameter [m].
-    exec::Octet coefficient(exec::Octet const& e, exec::Octet const& slip, exec::Octet const& diameter) const
-    {
-        exec::Octet const reynolds = e * fluid.density * slip * diameter / fluid.viscosity;
-        return 3 * pi * fluid.viscosity * diameter * e * beetstra_factor(e, reynolds);
     }
 };
 

@@ -8,6 +8,7 @@
 
 #include "core/Error.hpp"
 #include "exec/ForEach.hpp"
+#include "mapping/LocateKernel.hpp"
 #include "mapping/WeightKernel.hpp"
 
 namespace gimdem
@@ -15,27 +16,6 @@ namespace gimdem
 
 namespace
 {
-
-/// Cell of a particle; status 1 where it left the mesh, 2 where it sank into a wall.
-struct LocateKernel
-{
-    CellWalker walk;
-    Quad const* position;
-    std::uint8_t const* wall_faces;
-    std::int32_t* cell_of;
-    std::uint8_t* status;
-
-    GIMDEM_HD void operator()(std::int64_t p) const
-    {
-        Quad const x = position[p];
-        Location const at = walk(cell_of[p], x.xyz());
-        cell_of[p] = at.cell;
-        bool const inside_a_wall = at.face >= walk.mesh.internal_face_count && wall_faces[at.face] != 0;
-        bool const between_cells = at.face >= 0 && at.face < walk.mesh.internal_face_count;
-        bool const outside = at.face >= 0 && !between_cells && !(inside_a_wall && at.outside < x.w);
-        status[p] = outside ? (inside_a_wall ? 2 : 1) : 0;
-    }
-};
 
 /// What the particles of the i-th occupied cell give to its candidates.
 struct GiveKernel

@@ -71,6 +71,13 @@ public:
     };
     std::vector<Leaver> const& left() const { return left_; }
 
+    /// For whoever locates elsewhere: none left so far, and a search starts from these cells; none: from scratch.
+    void take_cells(exec::Buffer<std::int32_t> cells)
+    {
+        cell_of_ = std::move(cells);
+        left_.clear();
+    }
+
     /// Throws UserError, naming the particle and the place: for a particle that must not be outside of the mesh.
     [[noreturn]] static void refuse_outside(ParticleState const& particles, std::int64_t particle);
 
@@ -78,6 +85,12 @@ public:
     /// A row for each particle, cell after cell and in rising order within a cell: weights on layers() of its cell.
     exec::Buffer<double> const& weights() const { return weights_; }
     CellLayers const& layers() const { return layers_; }
+
+    // What a device needs to do the same.
+    StartCells const& start_cells() const { return start_cells_; }
+    GaussianTables& tables() { return tables_; }
+    exec::Buffer<CellSize> const& cell_sizes() const { return cell_sizes_; }
+    exec::Buffer<std::int32_t> const& reverse_slot() const { return reverse_slot_; }
 
 private:
     void lay_out_rows();

@@ -32,47 +32,15 @@ Constant3 constant(Vec3 const& v)
                     particles.id[i]));
 }
 
-/// How many particles there are between two halvings of the largest radius, and how large they are.
-struct Census
+/// Of two sets of particles together.
+SizeCensus operator+(SizeCensus a, SizeCensus const& b)
 {
-    std::int64_t count[SizeLevels::most]{};
-    double largest[SizeLevels::most]{};
-
-    friend Census operator+(Census a, Census const& b)
+    for (int k = 0; k < SizeCensus::most; ++k)
     {
-        for (int k = 0; k < SizeLevels::most; ++k)
-        {
-            a.count[k] += b.count[k];
-            a.largest[k] = std::max(a.largest[k], b.largest[k]);
-        }
-        return a;
+        a.count[k] += b.count[k];
+        a.largest[k] = std::max(a.largest[k], b.largest[k]);
     }
-};
-
-Census take_census(exec::Execution const& execution, ParticleState const& particles, Extent const& extent)
-{
-    Census one_size;
-    one_size.count[0] = particles.count();
-    one_size.largest[0] = extent.largest_radius;
-    if (2 * extent.smallest_radius > extent.largest_radius) return one_size;
-
-    Quad const* const position = particles.position.view().data;
-    constexpr std::int64_t block = 1024;
-    std::int64_t const n = particles.count();
-    return exec::reduce(
-        execution, (n + block - 1) / block, Census{},
-        [=](std::int64_t b)
-        {
-            Census census;
-            for (std::int64_t i = b * block; i < std::min(n, (b + 1) * block); ++i)
-            {
-                int const k = SizeLevels::halvings(position[i].w, extent.largest_radius);
-                ++census.count[k];
-                census.largest[k] = std::max(census.largest[k], position[i].w);
-            }
-            return census;
-        },
-        [](Census const& a, Census const& b) { return a + b; });
+    return a;
 }
 
 /// The box of all centres, or that of the domain where it is periodic.
@@ -121,10 +89,40 @@ Extent Extent::of(exec::Execution const& execution, ParticleState const& particl
     return all.extent;
 }
 
+SizeCensus SizeCensus::of(exec::Execution const& execution, ParticleState const& particles, Extent const& extent)
+{
+    SizeCensus one_size;
+    one_size.count[0] = particles.count();
+    one_size.largest[0] = extent.largest_radius;
+    if (2 * extent.smallest_radius > extent.largest_radius) return one_size;
+
+    Quad const* const position = particles.position.view().data;
+    constexpr std::int64_t block = 1024;
+    std::int64_t const n = particles.count();
+    return exec::reduce(
+        execution, (n + block - 1) / block, SizeCensus{},
+        [=](std::int64_t b)
+        {
+            SizeCensus census;
+            for (std::int64_t i = b * block; i < std::min(n, (b + 1) * block); ++i)
+            {
+                int const k = SizeLevels::halvings(position[i].w, extent.largest_radius);
+                ++census.count[k];
+                census.largest[k] = std::max(census.largest[k], position[i].w);
+            }
+            return census;
+        },
+        [](SizeCensus const& a, SizeCensus const& b) { return a + b; });
+}
+
 SizeLevels SizeLevels::of(exec::Execution const& execution, ParticleState const& particles, Extent const& extent,
                           double skin, Domain const& domain)
 {
-    Census const census = take_census(execution, particles, extent);
+    return of(SizeCensus::of(execution, particles, extent), extent, skin, domain);
+}
+
+SizeLevels SizeLevels::of(SizeCensus const& census, Extent const& extent, double skin, Domain const& domain)
+{
     auto const [low, high] = box_of(extent, domain);
     SizeLevels levels;
     levels.largest_radius = extent.largest_radius;

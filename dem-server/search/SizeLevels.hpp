@@ -24,6 +24,17 @@ struct Extent
     static Extent of(exec::Execution const& execution, ParticleState const& particles);
 };
 
+/// How many particles there are between two halvings of the largest radius, and how large they are.
+struct SizeCensus
+{
+    static constexpr int most = 8;  ///< radii below 1/128 of the largest are counted together
+
+    std::int64_t count[most]{};
+    double largest[most]{};  ///< [m]
+
+    static SizeCensus of(exec::Execution const& execution, ParticleState const& particles, Extent const& extent);
+};
+
 struct SizeLevel
 {
     CellGrid grid;                    ///< cells of twice the largest radius + skin
@@ -35,7 +46,7 @@ struct SizeLevel
 /// The levels that hold particles, finest first; sorted by them, every pair of two levels has its finer member first.
 struct SizeLevels
 {
-    static constexpr int most = 8;  ///< radii below 1/128 of the largest share the last level
+    static constexpr int most = SizeCensus::most;
 
     SizeLevel level[most];
     int count = 0;
@@ -46,6 +57,7 @@ struct SizeLevels
     /// Levels for cells of `skin` [m] beyond contact. The grids cover `extent`, or the box of a periodic domain.
     static SizeLevels of(exec::Execution const& execution, ParticleState const& particles, Extent const& extent,
                          double skin, Domain const& domain);
+    static SizeLevels of(SizeCensus const& census, Extent const& extent, double skin, Domain const& domain);
 
     /// k of the radii in (largest / 2^(k + 1), largest / 2^k].
     GIMDEM_HD static int halvings(double radius, double largest)

@@ -52,6 +52,13 @@ public:
     /// Adds the walls' forces and torques; advances the tangential springs by dt [s].
     void add_forces(ParticleState& particles, double dt);
 
+    /// For whoever builds a list elsewhere: it was built now, with all particles and what they reached in a box [m].
+    void remember_build(Vec3 const& low, Vec3 const& high);
+    exec::Buffer<WallPose> const& poses() const { return poses_; }  ///< of each body, now
+    bool some_move() const { return some_wall_moves_; }
+    /// Of each body: row of its material in the table of pairs.
+    exec::Buffer<std::int32_t> const& first_pairs() const { return first_pair_; }
+
     WallPairs& pairs() { return pairs_; }
     WallPairs const& pairs() const { return pairs_; }
     std::int32_t plane_count() const { return walls_.plane_count(); }

@@ -6,85 +6,13 @@
 #include "exec/ForEach.hpp"
 #include "exec/Sort.hpp"
 #include "walls/WallContacts.hpp"
+#include "walls/WallListKernels.hpp"
 
 namespace gimdem
 {
 
 namespace
 {
-
-/// Finds the surfaces near a particle: first counts them, then, with `plane` set, lists them.
-struct PairLister
-{
-    NearbyWalls nearby;
-    Quad const* position;
-    double skin;
-    std::int32_t* offsets;  ///< counts while counting
-    std::uint64_t* seen;    ///< of each particle: two bits for each of its first runs, near and whole
-    std::int32_t* plane;
-    std::uint8_t* whole;
-
-    static constexpr int most_runs = 32;
-
-    GIMDEM_HD void operator()(std::int64_t i) const
-    {
-        if (plane == nullptr)
-            count(i);
-        else if (offsets[i] != offsets[i + 1])
-            list(i);
-    }
-
-private:
-    static constexpr std::uint64_t is_near = 1, is_whole = 2;
-
-    GIMDEM_HD void count(std::int64_t i) const
-    {
-        Quad const x = position[i];
-        std::uint64_t bits = 0;
-        std::int32_t found = 0;
-        int r = 0;
-        nearby(x.xyz(),
-               [&](Vec3 const& y, SurfaceRun const& run)
-               {
-                   std::uint64_t const here = look(run, y, x.w);
-                   found += (here & is_near) != 0;
-                   if (r < most_runs) bits |= here << (2 * r);
-                   ++r;
-               });
-        seen[i] = bits;
-        offsets[i] = found;
-    }
-
-    GIMDEM_HD void list(std::int64_t i) const
-    {
-        Quad const x = position[i];
-        std::int32_t k = offsets[i];
-        int r = 0;
-        nearby(x.xyz(),
-               [&](Vec3 const& y, SurfaceRun const& run)
-               {
-                   std::uint64_t const here = r < most_runs ? seen[i] >> (2 * r) : look(run, y, x.w);
-                   ++r;
-                   if ((here & is_near) == 0) return;
-                   plane[k] = run.surface;
-                   whole[k++] = (here & is_whole) != 0;
-               });
-    }
-
-    GIMDEM_HD std::uint64_t look(SurfaceRun const& run, Vec3 const& y, double radius) const
-    {
-        double const reach = radius + skin;
-        WallSurface const& s = nearby.walls.surfaces[run.surface];
-        if (s.kind == SurfaceKind::cylinder)
-            return NearbyWalls::closest_on_cylinder(s, y).distance > reach ? 0 : is_near;
-        double const height = s.normal.xyz().dot(y) - s.normal.w;
-        if (height > reach || height < -reach) return 0;
-        if (s.kind == SurfaceKind::plane) return is_near | is_whole;
-        SurfacePoint const at = nearby.closest(run, y);
-        if (at.distance > reach) return 0;
-        return is_near | (at.interior && nearby.distance_to_rim(run, at.point) > 2 * skin ? is_whole : 0);
-    }
-};
 
 /// Tells what the pairs of one particle are, once they are listed.
 struct PairDescriber
@@ -124,28 +52,6 @@ private:
                 if (walls.surfaces[plane[m]].patch == s.patch) return false;
         }
         return true;
-    }
-};
-
-struct WallSpringCarrier
-{
-    std::int32_t const* order;  ///< null: particles kept their places
-    std::int32_t const* offsets;
-    std::int32_t const* plane;
-    std::int32_t const* old_offsets;
-    std::int32_t const* old_plane;
-    Quad const* old_spring;
-    Quad* spring;
-
-    GIMDEM_HD void operator()(std::int64_t i) const
-    {
-        std::int64_t const old = order == nullptr ? i : order[i];
-        for (std::int32_t k = offsets[i]; k < offsets[i + 1]; ++k)
-        {
-            spring[k] = {0, 0, 0, 0};
-            for (std::int32_t m = old_offsets[old]; m < old_offsets[old + 1]; ++m)
-                if (old_plane[m] == plane[k]) spring[k] = old_spring[m];
-        }
     }
 };
 
@@ -284,22 +190,28 @@ void WallContacts::carry_springs(std::span<std::int32_t const> order, exec::Buff
 
 void WallContacts::remember_build(ParticleState const& particles, double skin)
 {
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    if (some_wall_moves_)
+        for (Quad const& x : particles.position.host())
+        {
+            Vec3 const reach = Vec3::Constant(x.w + skin);
+            low = low.cwiseMin(x.xyz() - reach);
+            high = high.cwiseMax(x.xyz() + reach);
+        }
+    remember_build(low, high);
+}
+
+void WallContacts::remember_build(Vec3 const& low, Vec3 const& high)
+{
     built_at_ = poses_;
     built_time_ = time_;
-    low_ = Vec3::Constant(std::numeric_limits<double>::infinity());
-    high_ = -low_;
-    if (!some_wall_moves_) return;
-    for (Quad const& x : particles.position.host())
-    {
-        Vec3 const reach = Vec3::Constant(x.w + skin);
-        low_ = low_.cwiseMin(x.xyz() - reach);
-        high_ = high_.cwiseMax(x.xyz() + reach);
-    }
+    low_ = low;
+    high_ = high;
 }
 
 bool WallContacts::is_stale(double skin) const
 {
-    if (!some_wall_moves_ || pairs_.offsets.size() <= 1) return false;
+    if (!some_wall_moves_ || built_at_.size() == 0 || !(low_.x() <= high_.x())) return false;
     WallView const walls = walls_.view();
     for (std::int32_t b = 0; b < walls.body_count; ++b)
     {

@@ -114,7 +114,7 @@ Mistake const mistakes[] = {
     {"UnknownSchedule", "schedule = \"serial\"", "schedule = \"overlaped\"",
      "case.toml:7: \"schedule\" in [coupling] is \"overlaped\" (must be serial | overlapped); did you mean \"overlapped\"?"},
     {"UnknownBackend", "backend = \"serial\"", "backend = \"abacus\"",
-     "case.toml:14: \"backend\" in [dem] is \"abacus\" (must be serial | openmp); write e.g. backend = \"openmp\""},
+     "case.toml:14: \"backend\" in [dem] is \"abacus\" (must be serial | openmp | cuda); write e.g. backend = \"openmp\""},
     {"UnknownMethod", "\"gim\"", "\"gmi\"",
      "case.toml:46: \"method\" in [mapping] is \"gmi\" (must be gim); did you mean \"gim\"?"},
     {"UnknownDrag", "[mapping]", "[fluid_forces]\ndrag = \"stokes\"\n[mapping]",

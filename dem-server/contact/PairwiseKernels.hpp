@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Forces between particles where each pair has a thread of its own: every pair is computed once, then each particle
+/// sums its pairs in the order of PairKernel, so that the two differ by no more than the rounding of a pair.
+#pragma once
+
+#include <cstdint>
+
+#include "contact/Meeting.hpp"
+#include "particles/ParticleState.hpp"
+#include "search/NeighborList.hpp"
+
+namespace gimdem
+{
+
+/// What these kernels see of the list of pairs.
+struct PairwiseView
+{
+    std::int32_t const* first;
+    std::int32_t const* second;
+    std::int32_t const* row_offsets;     ///< pairs in which a particle is first
+    std::int32_t const* second_offsets;  ///< pairs in which it is second ...
+    std::int32_t const* second_pairs;    ///< ... are second_pairs[second_offsets[i]] ..., rising
+    Quad* displacement;
+    Quad* rolling_spring;  ///< null where no law has such a spring
+    std::uint8_t* touches;
+};
+
+/// What a touching pair does.
+struct PairForce
+{
+    Quad force;  ///< on the first [N]; w: lever of the first [m]
+    Quad turn;   ///< tangential force x normal [N]; w: lever of the second [m]
+};
+
+/// Force of pair k; its springs go one step on.
+template <class Law, class Space>
+struct PairForceKernel
+{
+    ParticleView particles;
+    PairwiseView list;
+    typename Law::template Constants<double> const* constants;
+    std::int32_t material_count;
+    double dt;
+    Space space;
+    PairForce* pair_force;
+    Quad* rolling_torque;  ///< on the first [N m]; null where the law has none
+
+    GIMDEM_HD void operator()(std::int64_t k) const
+    {
+        std::int32_t const i = list.first[k], j = list.second[k];
+        bool const touching = touch(particles.position[i], particles.position[j]);
+        if (!touching && list.touches[k] != 0)
+        {
+            list.displacement[k] = {0, 0, 0, 0};
+            if constexpr (Law::has_rolling_spring) list.rolling_spring[k] = {0, 0, 0, 0};
+        }
+        list.touches[k] = touching;
+        if (touching) compute(k, i, j);
+    }
+
+private:
+    GIMDEM_HD bool touch(Quad const& a, Quad const& b) const
+    {
+        double dx = a.x - b.x, dy = a.y - b.y, dz = a.z - b.z;
+        space.shorten(dx, dy, dz);
+        double const reach = a.w + b.w;
+        return reach * reach > dx * dx + dy * dy + dz * dz;
+    }
+
+    GIMDEM_HD void compute(std::int64_t k, std::int32_t i, std::int32_t j) const
+    {
+        MovingSphere<double> const a = sphere(i), b = sphere(j);
+        ContactGeometry<double> const contact = meet<Law, false>(a, b, space);
+        ContactSprings<double> springs{vector3(list.displacement[k].xyz())};
+        if constexpr (Law::has_rolling_spring) springs.rolling = vector3(list.rolling_spring[k].xyz());
+        ContactForce<double> const result = Law::template apply<double>(
+            constants[particles.material[i] * material_count + particles.material[j]], dt, contact, springs);
+        list.displacement[k] = Quad::of(vec3(springs.tangential), 0);
+        if constexpr (Law::has_rolling_spring) list.rolling_spring[k] = Quad::of(vec3(springs.rolling), 0);
+        pair_force[k] = {Quad::of(vec3(result.force), a.radius - contact.overlap / 2),
+                         Quad::of(vec3(result.tangential.cross(contact.normal)), b.radius - contact.overlap / 2)};
+        if constexpr (Law::rolls) rolling_torque[k] = Quad::of(vec3(result.rolling), 0);
+    }
+
+    GIMDEM_HD MovingSphere<double> sphere(std::int32_t i) const
+    {
+        Quad const x = particles.position[i], v = particles.velocity[i], w = particles.angular_velocity[i];
+        return {vector3(x.xyz()), vector3(v.xyz()), vector3(w.xyz()), x.w, v.w, w.w};
+    }
+};
+
+/// Sets force and torque of particle i to the sum over its pairs: first those with particles before it in its block,
+/// then those with particles after it, then those with particles of earlier blocks.
+struct PairSumKernel
+{
+    ParticleView particles;
+    PairwiseView list;
+    PairForce const* pair_force;
+    Quad const* rolling_torque;  ///< null where the law has none
+
+    GIMDEM_HD void operator()(std::int64_t i) const
+    {
+        Sum sum{{0, 0, 0, 0}, {0, 0, 0, 0}};
+        std::int32_t const begin = list.second_offsets[i], end = list.second_offsets[i + 1];
+        std::int64_t const block_begin = i / NeighborList::block * NeighborList::block;
+        std::int32_t own = begin;
+        while (own < end && list.first[list.second_pairs[own]] < block_begin)
+            ++own;
+        add_seconds(own, end, sum);
+        for (std::int32_t k = list.row_offsets[i]; k < list.row_offsets[i + 1]; ++k)
+            if (list.touches[k] != 0) add_first(k, sum);
+        add_seconds(begin, own, sum);
+        particles.force[i] = sum.force;
+        particles.torque[i] = sum.torque;
+    }
+
+private:
+    struct Sum
+    {
+        Quad force, torque;
+    };
+
+    GIMDEM_HD void add_first(std::int32_t k, Sum& sum) const
+    {
+        PairForce const& pair = pair_force[k];
+        sum.force = sum.force + without_w(pair.force);
+        Quad turn = pair.force.w * without_w(pair.turn);
+        if (rolling_torque != nullptr) turn = turn + rolling_torque[k];
+        sum.torque = sum.torque + turn;
+    }
+
+    GIMDEM_HD void add_seconds(std::int32_t begin, std::int32_t end, Sum& sum) const
+    {
+        for (std::int32_t m = begin; m < end; ++m)
+        {
+            std::int32_t const k = list.second_pairs[m];
+            if (list.touches[k] == 0) continue;
+            PairForce const& pair = pair_force[k];
+            sum.force = sum.force - without_w(pair.force);
+            Quad turn = pair.turn.w * without_w(pair.turn);
+            if (rolling_torque != nullptr) turn = turn - rolling_torque[k];
+            sum.torque = sum.torque + turn;
+        }
+    }
+
+    GIMDEM_HD static Quad without_w(Quad const& q) { return {q.x, q.y, q.z, 0}; }
+};
+
+}  // namespace gimdem

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What the fluid does to the particles and the particles to the fluid's mesh, on a device.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/device/DeviceDem.hpp"
+#include "engine/device/DeviceParticles.hpp"
+#include "exec/device/DeviceReduce.hpp"
+#include "exec/device/DeviceSort.hpp"
+#include "forces/LoadLaw.hpp"
+#include "mapping/LocateKernel.hpp"
+#include "mapping/PairwiseWeights.hpp"
+
+namespace gimdem
+{
+
+/// The client's mesh in the memory of a device.
+template <class Device>
+class DeviceMesh
+{
+public:
+    template <class T>
+    using Array = exec::DeviceArray<Device, T>;
+
+    void upload(Device& device, FluidScene const& scene);
+
+    MeshKernelView view() const
+    {
+        return {cells_.data(),   face_centres_.data(), face_normals_.data(), owner_.data(), neighbour_.data(),
+                offsets_.data(), cell_faces_.data(),   internal_faces_,      cell_count()};
+    }
+    LayerView layers() const
+    {
+        return {layer_offsets_.data(), layer_cells_.data(), row_of_.data(), reverse_slot_.data()};
+    }
+    Quad const* cells() const { return cells_.data(); }
+    std::int32_t cell_count() const { return static_cast<std::int32_t>(cells_.size()); }
+    std::int64_t layer_entries() const { return layer_cells_.size(); }
+    std::uint8_t const* wall_faces() const { return wall_faces_.data(); }
+    CellSize const* cell_sizes() const { return cell_sizes_.data(); }
+
+private:
+    Array<Quad> cells_, face_centres_, face_normals_;
+    Array<std::int32_t> owner_, neighbour_, offsets_, cell_faces_, layer_offsets_, layer_cells_, row_of_, reverse_slot_;
+    Array<std::uint8_t> wall_faces_;
+    Array<CellSize> cell_sizes_;
+    std::int32_t internal_faces_ = 0;
+};
+
+template <class Device>
+class DeviceFluid
+{
+public:
+    template <class T>
+    using Array = exec::DeviceArray<Device, T>;
+
+    explicit DeviceFluid(Device& device)
+        : device_(device), sum_quads_(device), sum_impulses_(device), sum_counts_(device), highest_(device)
+    {
+    }
+    ~DeviceFluid();
+    DeviceFluid(DeviceFluid const&) = delete;
+    DeviceFluid& operator=(DeviceFluid const&) = delete;
+
+    void set_scene(FluidScene const& scene);
+    /// Sees to tables of the Gaussian integral for the sizes of the particles, which are on the host too.
+    void take_sizes(ParticleState const& particles);
+    void load(coupling::FluidFields const& fields);
+    void set_void_fraction(exec::Buffer<double> const& values) { void_fraction_.upload(device_, values); }
+
+    void apply(DeviceParticles<Device>& particles);
+    FluidLoad const* loads() const { return loads_.data(); }
+    Vec3 steady_force();
+    std::int64_t clipped();
+
+    bool locate(DeviceParticles<Device>& particles);
+    void sum_into_cells(DeviceParticles<Device> const& particles, CellSums& sums);
+    ImpulseSums impulse_sums(DeviceParticles<Device> const& particles);
+
+private:
+    template <class Integral>
+    void sum_with(Integral const& integral, DeviceParticles<Device> const& particles);
+    void stage(coupling::Span<double const> from, Quad* to) const;
+    void start_near(DeviceParticles<Device>& particles);
+
+    Device& device_;
+    FluidScene const* scene_ = nullptr;
+    std::unique_ptr<FluidScene> kept_;
+    DeviceMesh<Device> mesh_;
+    Array<Quad> velocity_, pressure_gradient_, void_gradient_;
+    Array<double> velocity_gradient_, void_fraction_, per_total_;
+    Array<FluidLoad> loads_;
+    Array<std::int32_t> clips_;
+    Array<std::uint8_t> status_;
+    bool has_tables_ = false;
+    GaussianTableView table_shape_{};
+    Array<double> radii_, coefficients_;
+    Array<TabulatedPair> pairs_;
+    exec::DeviceSort<Device> sort_;
+    exec::DeviceGroups<Device> by_cell_;
+    Array<Share> shares_, sums_;
+    exec::DeviceReduce<Device, Quad> sum_quads_;
+    exec::DeviceReduce<Device, ImpulseSums> sum_impulses_;
+    exec::DeviceReduce<Device, std::int64_t> sum_counts_;
+    exec::DeviceReduce<Device, std::int32_t> highest_;
+    Quad* quads_here_ = nullptr;      ///< pinned: three fields of vectors
+    double* numbers_here_ = nullptr;  ///< pinned: the gradient of the velocity
+    Share* sums_here_ = nullptr;      ///< pinned: what goes back
+};
+
+}  // namespace gimdem
