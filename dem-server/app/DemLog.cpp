@@ -138,6 +138,7 @@ void DemLog::finish(RunPoint const& point)
     summary_.add("particles", count, "1");
     summary_.add("particles_inserted", inserted(inlets_), "1");
     summary_.add("particles_removed", static_cast<double>(gone.count), "1");
+    summary_.add("particles_lost", static_cast<double>(lost_particles(system_)), "1");
     summary_.add("mass_removed", gone.mass, "kg");
     for (auto const& [cause, removed] : system_.removed())
     {

@@ -260,6 +260,7 @@ void RunLog::finish(double bytes)
         summary_.add(name, static_cast<double>(removed.count), "1");
     }
     summary_.add("particles_removed", static_cast<double>(gone.count), "1");
+    summary_.add("particles_lost", static_cast<double>(lost_particles(system_)), "1");
     summary_.add("mass_removed", gone.mass, "kg");
     summary_.add("mean_particle_diameter", mean_diameter(), "m");
     summary_.add("fluid_density", fluid_.density, "kg/m^3");

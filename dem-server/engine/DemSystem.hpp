@@ -41,6 +41,9 @@ struct Removed
 };
 using RemovedByCause = std::map<std::string, Removed>;
 
+/// How the cause of those begins that left where there is no way out.
+inline char const* const through_wall = "through the wall ";
+
 class DeviceDem;
 
 /// Where the execution names a device, the state lives there. The host's copy is brought up to date when it is asked
@@ -144,6 +147,9 @@ private:
     bool device_is_old_ = true;          ///< the host has what the device has not
     mutable bool host_is_old_ = false;   ///< the other way round
 };
+
+/// Particles that there were and that are neither here nor gone through an outlet: 0, or something is wrong.
+std::int64_t lost_particles(DemSystem const& system);
 
 /// True for particles that share one radius and one mass.
 bool have_one_size(ParticleState const& particles);

@@ -147,4 +147,12 @@ void DemSystem::rebuild()
     prepare();
 }
 
+std::int64_t lost_particles(DemSystem const& system)
+{
+    std::int64_t lost = system.next_id() - system.particles().count();
+    for (auto const& [cause, removed] : system.removed())
+        if (!cause.starts_with(through_wall)) lost -= removed.count;
+    return lost;
+}
+
 }  // namespace gimdem

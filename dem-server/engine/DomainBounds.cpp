@@ -17,7 +17,7 @@ DomainBounds::DomainBounds(DomainSettings const& domain) : box_(domain.box), per
     for (std::size_t side = 0; side < 6; ++side)
     {
         open_[side] = is_open(domain, side);
-        causes_.push_back(std::string(open_[side] ? "through " : "through the wall ") + side_names[side]);
+        causes_.push_back(std::string(open_[side] ? "through " : through_wall) + side_names[side]);
     }
 }
 

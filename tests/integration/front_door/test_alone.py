@@ -67,6 +67,7 @@ class Alone(FrontDoorTest):
         self.assertGreater(whole["particles_inserted"], 1000)
         self.assertGreater(whole["particles_removed"], 100)
         self.assertEqual(whole["removed_through_xmax"], whole["particles_removed"])
+        self.assertEqual(whole["particles_lost"], 0)
         self.assertEqual(whole["particles"], 300 + whole["particles_inserted"] - whole["particles_removed"])
         self.assertIn("figure: particles_removed = ", out)
         # Every 1471 steps, and at the end.

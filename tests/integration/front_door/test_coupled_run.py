@@ -28,6 +28,7 @@ class ShortRuns(RealCaseTest):
         self.assertEqual(figures["coupling_steps"], 20)
         self.assertEqual(figures["particles"], 300)
         self.assertEqual(figures["particles_removed"], 0)
+        self.assertEqual(figures["particles_lost"], 0)
         self.assertLess(figures["momentum_imbalance"], SMALL)
         self.assertLess(figures["volume_imbalance"], SMALL)
         for name, value in figures.items():

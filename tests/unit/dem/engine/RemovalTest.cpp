@@ -87,6 +87,7 @@ TEST(DomainBounds, OpenSidesLetGoAndWallsHold)
     EXPECT_EQ(removed.count, 1);
     EXPECT_NEAR(removed.mass, 1150 * gimdem::sphere_volume(1e-3), 1e-18);
     EXPECT_EQ(bounds.remove_leavers(*boxed.system), 0);
+    EXPECT_EQ(gimdem::lost_particles(*boxed.system), 0) << "it went through an outlet";
     boxed.run(10);
 }
 
@@ -96,6 +97,7 @@ TEST(DomainBounds, ParticleBeyondAWallIsCountedAsSuch)
     boxed.system->particles().position[0].x = -1.5e-3;
     EXPECT_EQ(gimdem::DomainBounds(box({})).remove_leavers(*boxed.system), 1);
     EXPECT_EQ(boxed.system->removed().begin()->first, "through the wall xmin");
+    EXPECT_EQ(gimdem::lost_particles(*boxed.system), 1);
     EXPECT_EQ(boxed.system->particles().count(), 0);
     boxed.run(10);  // no particles are a case like any other
     boxed.system->insert(particles_of({{{0.01, 0.01, 0.01}, 1e-3}}));
