@@ -6,6 +6,7 @@
 #include <iostream>
 #include <limits>
 
+#include "app/LogParts.hpp"
 #include "engine/BedMonitors.hpp"
 
 namespace gimdem::app
@@ -16,26 +17,11 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 std::vector<output::Column> const columns{
     {"time", "s"},           {"particles", "1"},          {"bed_height", "m"},
     {"centre_of_mass", "m"}, {"speed_max", "m/s"},        {"kinetic_energy", "J"},
     {"wall_force", "N"},     {"particles_inserted", "1"}, {"particles_removed", "1"},
     {"mass_removed", "kg"}};
-
-/// xyz of quads as n * 3 doubles.
-std::vector<double> triples(exec::Buffer<Quad> const& quads)
-{
-    std::vector<double> out;
-    out.reserve(3 * static_cast<std::size_t>(quads.size()));
-    for (Quad const& q : quads.host())
-        out.insert(out.end(), {q.x, q.y, q.z});
-    return out;
-}
 
 double kinetic_energy(ParticleState const& particles)
 {
@@ -73,22 +59,11 @@ DemLog::DemLog(Case const& settings, std::filesystem::path const& folder, PolyMe
 {
 }
 
-Removed DemLog::removed() const
-{
-    Removed all;
-    for (auto const& [cause, removed] : system_.removed())
-    {
-        all.count += removed.count;
-        all.mass += removed.mass;
-    }
-    return all;
-}
-
 void DemLog::write_row(RunPoint const& point)
 {
     ParticleState const& particles = system_.particles();
     bool const any = particles.count() > 0;
-    Removed const gone = removed();
+    Removed const gone = total_removed(system_);
     series_.append(std::vector<double>{
         point.time, static_cast<double>(particles.count()), any ? bed_height(particles, mesh_, up_) : 0,
         any ? centre_of_mass_height(particles, mesh_, up_) : 0, fastest(particles), kinetic_energy(particles),
@@ -132,20 +107,12 @@ void DemLog::finish(RunPoint const& point)
     double const wall = seconds_since(begin_), simulated = point.time - start_.time;
     auto const steps = static_cast<double>(point.step - start_.step);
     auto const count = static_cast<double>(system_.particles().count());
-    Removed const gone = removed();
     summary_.add("simulated_time", simulated, "s");
     summary_.add("dem_steps", steps, "1");
     summary_.add("particles", count, "1");
     summary_.add("particles_inserted", inserted(inlets_), "1");
-    summary_.add("particles_removed", static_cast<double>(gone.count), "1");
-    summary_.add("particles_lost", static_cast<double>(lost_particles(system_)), "1");
-    summary_.add("mass_removed", gone.mass, "kg");
-    for (auto const& [cause, removed] : system_.removed())
-    {
-        std::string name = "removed " + cause;
-        std::replace(name.begin(), name.end(), ' ', '_');
-        summary_.add(name, static_cast<double>(removed.count), "1");
-    }
+    add_removed(system_, summary_);
+    add_removed_by_cause(system_, summary_);
     for (std::size_t i = 0; i < inlets_.size(); ++i)
         summary_.add("inlet_" + std::to_string(i + 1) + "_mass_owed", inlets_[i].owed(point.time), "kg");
     summary_.add("mass", total_mass(system_.particles()), "kg");

@@ -37,8 +37,6 @@ public:
     output::Progress& progress() { return progress_; }
 
 private:
-    Removed removed() const;  ///< whatever the cause
-
     Case const& settings_;
     std::filesystem::path folder_;
     PolyMesh const& mesh_;

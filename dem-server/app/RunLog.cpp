@@ -8,6 +8,7 @@
 #include <iostream>
 #include <limits>
 
+#include "app/LogParts.hpp"
 #include "core/Error.hpp"
 
 namespace gimdem::app
@@ -18,26 +19,11 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 double monitor(coupling::FluidState const& fluid, std::string const& name)
 {
     for (coupling::Monitor const& m : fluid.monitors)
         if (m.name == name) return m.value;
     return std::numeric_limits<double>::quiet_NaN();
-}
-
-/// xyz of quads as n * 3 doubles.
-std::vector<double> triples(exec::Buffer<Quad> const& quads)
-{
-    std::vector<double> out;
-    out.reserve(3 * static_cast<std::size_t>(quads.size()));
-    for (Quad const& q : quads.host())
-        out.insert(out.end(), {q.x, q.y, q.z});
-    return out;
 }
 
 std::span<double const> as_span(coupling::Span<double const> s)
@@ -250,18 +236,8 @@ void RunLog::finish(double bytes)
     summary_.add("coupling_steps", static_cast<double>(steps_), "1");
     summary_.add("dem_steps", static_cast<double>(dem_steps_), "1");
     summary_.add("particles", static_cast<double>(system_.particles().count()), "1");
-    Removed gone;
-    for (auto const& [cause, removed] : system_.removed())
-    {
-        gone.count += removed.count;
-        gone.mass += removed.mass;
-        std::string name = "removed " + cause;
-        std::replace(name.begin(), name.end(), ' ', '_');
-        summary_.add(name, static_cast<double>(removed.count), "1");
-    }
-    summary_.add("particles_removed", static_cast<double>(gone.count), "1");
-    summary_.add("particles_lost", static_cast<double>(lost_particles(system_)), "1");
-    summary_.add("mass_removed", gone.mass, "kg");
+    add_removed_by_cause(system_, summary_);
+    add_removed(system_, summary_);
     summary_.add("mean_particle_diameter", mean_diameter(), "m");
     summary_.add("fluid_density", fluid_.density, "kg/m^3");
     summary_.add("fluid_viscosity", fluid_.viscosity, "Pa s");

@@ -84,13 +84,6 @@ inline Octet choose(OctetMask const& condition, Octet const& yes, Octet const& n
 {
     return detail::octet_of(condition.lanes ? detail::eight_of(yes) : detail::eight_of(no));
 }
-inline bool any(OctetMask const& condition)
-{
-    long long bits = 0;
-    for (int i = 0; i < octet; ++i)
-        bits |= condition.lanes[i];
-    return bits != 0;
-}
 
 /// values[place[i]] for each lane.
 inline OctetOfQuads load(Quad const* values, std::int32_t const* place)

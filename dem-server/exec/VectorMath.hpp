@@ -53,10 +53,6 @@ GIMDEM_HD inline bool greater(double a, double b)
 {
     return a > b;
 }
-GIMDEM_HD inline bool any(bool condition)
-{
-    return condition;
-}
 GIMDEM_HD inline double root(double x)
 {
     return std::sqrt(x);

@@ -42,8 +42,12 @@ struct LoadKernel
             if (pressure_gradient)
                 loads[p].steady = Quad::of(-sphere_volume(x.w) * fluid.pressure_gradient[cell_of[p]].xyz(), 0);
             if (!drag) continue;
-            e[k] = void_fraction_at(p);
-            loads[p].fluid_velocity = Quad::of(fluid.velocity_at(cell_of[p], x.xyz() - cell[cell_of[p]].xyz()), 0);
+            std::int32_t const c = cell_of[p];
+            Vec3 const dx = x.xyz() - cell[c].xyz();
+            bool clipped = false;
+            e[k] = fluid.void_fraction_at(c, void_fraction[c], dx, void_fraction_minimum, clipped);
+            was_clipped[p] = clipped;
+            loads[p].fluid_velocity = Quad::of(fluid.velocity_at(c, dx), 0);
             slip[k] = (loads[p].fluid_velocity.xyz() - particles.velocity[p].xyz()).norm();
             diameter[k] = 2 * x.w;
         }
@@ -51,18 +55,6 @@ struct LoadKernel
         exec::Octet const coefficients = fluid.drag_coefficient(e, slip, diameter);
         for (int k = 0; k < count; ++k)
             loads[first + k].fluid_velocity.w = coefficients[k];
-    }
-
-private:
-    /// Eq. 25, clipped into [minimum, 1].
-    double void_fraction_at(std::int64_t p) const
-    {
-        std::int32_t const c = cell_of[p];
-        Vec3 const dx = particles.position[p].xyz() - cell[c].xyz();
-        double const linear = void_fraction[c] + fluid.void_gradient[c].xyz().dot(dx);
-        double const e = linear < void_fraction_minimum ? void_fraction_minimum : (linear > 1 ? 1.0 : linear);
-        was_clipped[p] = e != linear;
-        return e;
     }
 };
 

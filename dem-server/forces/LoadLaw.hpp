@@ -28,6 +28,16 @@ struct FluidView
                                            dx.x() * g[2] + dx.y() * g[5] + dx.z() * g[8]);
     }
 
+    /// Void fraction at dx from the centre of a cell, Eq. 25, clipped into [minimum, 1]; tells whether it was.
+    GIMDEM_HD double void_fraction_at(std::int32_t cell, double at_centre, Vec3 const& dx, double minimum,
+                                      bool& was_clipped) const
+    {
+        double const linear = at_centre + void_gradient[cell].xyz().dot(dx);
+        double const e = linear < minimum ? minimum : (linear > 1 ? 1.0 : linear);
+        was_clipped = e != linear;
+        return e;
+    }
+
     /// k [kg/s] of F_d = k (v_f - v_p), (D.16), at a slip [m/s] and a diameter [m]. Real is double or exec::Octet.
     template <class Real>
     GIMDEM_HD Real drag_coefficient(Real const& e, Real const& slip, Real const& diameter) const
@@ -61,9 +71,9 @@ struct ParticleLoadKernel
         if (drag)
         {
             Vec3 const dx = x.xyz() - cell[c].xyz();
-            double const linear = void_fraction[c] + fluid.void_gradient[c].xyz().dot(dx);
-            double const e = linear < void_fraction_minimum ? void_fraction_minimum : (linear > 1 ? 1.0 : linear);
-            clips[p] += e != linear;
+            bool was_clipped = false;
+            double const e = fluid.void_fraction_at(c, void_fraction[c], dx, void_fraction_minimum, was_clipped);
+            clips[p] += was_clipped;
             Vec3 const v = fluid.velocity_at(c, dx);
             double const slip = (v - particle_velocity[p].xyz()).norm();
             load.fluid_velocity = Quad::of(v, fluid.drag_coefficient(e, slip, 2 * x.w));

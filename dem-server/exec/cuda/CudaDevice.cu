@@ -8,17 +8,14 @@
 namespace gimdem::exec
 {
 
-namespace
-{
+using detail::check;
 
-void check(cudaError_t status, char const* what)
+void detail::check(cudaError_t status, char const* what)
 {
     if (status == cudaSuccess) return;
     throw UserError(std::string("the GPU failed at ") + what + " (" + cudaGetErrorString(status) +
                     "); see what else uses it with nvidia-smi, or run with --device cpu");
 }
-
-}  // namespace
 
 bool cuda_is_there()
 {

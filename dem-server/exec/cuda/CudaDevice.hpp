@@ -14,6 +14,9 @@ namespace gimdem::exec
 namespace detail
 {
 
+/// Throws UserError with CUDA's reason unless the call succeeded. what: "a copy", "a sort".
+void check(cudaError_t status, char const* what);
+
 inline constexpr unsigned launch_width = 128;  ///< threads of a block
 
 template <class Kernel>

@@ -3,23 +3,12 @@
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_scan.cuh>
 
-#include "core/Error.hpp"
 #include "exec/cuda/CudaDevice.hpp"
 
 namespace gimdem::exec
 {
 
-namespace
-{
-
-void check(cudaError_t status, char const* what)
-{
-    if (status == cudaSuccess) return;
-    throw UserError(std::string("the GPU failed at ") + what + " (" + cudaGetErrorString(status) +
-                    "); see what else uses it with nvidia-smi, or run with --device cpu");
-}
-
-}  // namespace
+using detail::check;
 
 bool CudaDevice::scan_by_library(View<std::int32_t> values)
 {
