@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Time and memory of a DEM step of a bed of 1.545 mm beads in the box of cases/wachem-bed, no fluid.
 ///
-///   benchmark_dem [--data FILE] [--write FILE] [--steps N] [--warm-up N] [--threads N] [--dt S] [--skin K] [--count N]
-///                 [--box X Y Z]
+///   benchmark_dem [--data FILE] [--write FILE] [--steps N] [--warm-up N] [--threads N] [--device cpu|cuda] [--dt S]
+///                 [--skin K] [--count N] [--box X Y Z]
 ///
 /// FILE: particles in the format of LAMMPS (id type diameter density x y z, then Velocities), so that other programs
 /// can start from the same state; without it, a lattice that falls. Prints figures.
@@ -17,6 +17,7 @@
 #include "BoxMesh.hpp"
 #include "TestCase.hpp"
 #include "engine/DemSystem.hpp"
+#include "engine/device/DeviceDem.hpp"
 #include "particles/Insertion.hpp"
 
 namespace
@@ -26,7 +27,7 @@ using namespace gimdem;
 
 struct Options
 {
-    std::string data, write;
+    std::string data, write, device = "cpu";
     int steps = 1000, warm_up = 500, threads = 1;
     double dt = 2e-5, skin = 0.3;
     std::int64_t count = 17'563;
@@ -123,12 +124,19 @@ double kinetic_energy(ParticleState const& p)
     return sum;
 }
 
+/// Waits for a device to finish its steps.
+void finish(DemSystem& system)
+{
+    if (DeviceDem* const device = system.device()) device->finish();
+}
+
 void run(Options const& options)
 {
     Case settings = test::bead_case(0.9, 0.3);
     settings.dem.gravity = {0, 0, -9.81};
     settings.dem.skin = options.skin;
-    exec::Execution const execution = exec::make_execution(options.threads == 1 ? "serial" : "openmp", options.threads);
+    std::string const backend = options.device == "cuda" ? "cuda" : options.threads == 1 ? "serial" : "openmp";
+    exec::Execution const execution = exec::make_execution(backend, options.threads);
     Materials const materials(settings);
     PolyMesh const mesh(test::BoxMesh::make({1, 1, 1}, {options.box[0], options.box[1], options.box[2]}));
     WallGeometry const walls(mesh, {"bottom"}, 0.9e-3);
@@ -143,9 +151,11 @@ void run(Options const& options)
         system.step(options.dt);
 
     std::int64_t const rebuilds = system.rebuilds();
+    finish(system);
     auto const start = std::chrono::steady_clock::now();
     for (int s = 0; s < options.steps; ++s)
         system.step(options.dt);
+    finish(system);
     double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     auto const n = static_cast<double>(system.particles().count());
     auto const bytes = static_cast<double>(memory_in_use() - before);
@@ -171,6 +181,7 @@ int main(int argc, char** argv)
     app.add_option("--steps", options.steps, "timed steps");
     app.add_option("--warm-up", options.warm_up, "steps before");
     app.add_option("--threads", options.threads, "threads");
+    app.add_option("--device", options.device, "where the particles are")->check(CLI::IsMember({"cpu", "cuda"}));
     app.add_option("--dt", options.dt, "time step [s]");
     app.add_option("--skin", options.skin, "of the neighbour list, in radii");
     app.add_option("--count", options.count, "particles of the lattice");

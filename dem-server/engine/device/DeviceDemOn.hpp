@@ -112,6 +112,8 @@ public:
         device_.wait();
     }
 
+    void finish() override { device_.wait(); }
+
     std::int64_t allocations() const override
     {
         if constexpr (requires { device_.allocations(); })
