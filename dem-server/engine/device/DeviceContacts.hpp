@@ -54,7 +54,8 @@ class DeviceContacts
 public:
     DeviceContacts(Device& device, Domain const& domain) : device_(device), domain_(domain) {}
 
-    /// Sets force and torque of every particle to the sum over its contacts; advances the springs by dt [s].
+    /// Sets force and torque of every particle to the sum over its contacts; advances the springs by dt [s]. Nothing
+    /// happens where the list is stale.
     void sum_forces(DeviceLaws<Device> const& laws, DeviceParticles<Device> const& particles,
                     DeviceNeighbors<Device> const& neighbors, double dt);
 

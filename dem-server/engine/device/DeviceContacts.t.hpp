@@ -19,14 +19,17 @@ void DeviceContacts<Device>::sum_forces(DeviceLaws<Device> const& laws, DevicePa
             in_space_of(domain_,
                         [&]<class Space>(Space space)
                         {
-                            device_.for_each(neighbors.pair_count(),
-                                             PairForceKernel<Law, Space>{particles.view(), neighbors.view(), constants,
-                                                                         laws.material_count(), dt, space,
-                                                                         pair_force_.data(), rolling_torque_.data()});
+                            device_.for_each(
+                                neighbors.pair_count(),
+                                Unless{neighbors.stale(),
+                                       PairForceKernel<Law, Space>{particles.view(), neighbors.view(), constants,
+                                                                   laws.material_count(), dt, space, pair_force_.data(),
+                                                                   rolling_torque_.data()}});
                         });
         });
     device_.for_each(particles.count(),
-                     PairSumKernel{particles.view(), neighbors.view(), pair_force_.data(), rolling_torque_.data()});
+                     Unless{neighbors.stale(), PairSumKernel{particles.view(), neighbors.view(), pair_force_.data(),
+                                                             rolling_torque_.data()}});
 }
 
 }  // namespace gimdem

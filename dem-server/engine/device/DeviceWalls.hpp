@@ -53,12 +53,14 @@ public:
     /// Lists the pairs closer than radius + skin [m]; the springs move along with `order`.
     void build(DeviceParticles<Device> const& particles, double skin, std::int32_t const* order);
 
-    /// Adds the walls' forces and torques; advances the springs by dt [s]. In a file of its own, like DeviceContacts.
-    void add_forces(DeviceLaws<Device> const& laws, DeviceParticles<Device> const& particles, double dt);
+    /// Adds the walls' forces and torques; advances the springs by dt [s]. Nothing happens where the flag `stale` is
+    /// raised. In a file of its own, like DeviceContacts.
+    void add_forces(DeviceLaws<Device> const& laws, DeviceParticles<Device> const& particles, std::int32_t const* stale,
+                    double dt);
 
-    // Time integral of the walls' force [N s].
+    // Time integral of the walls' force [N s]: over the half step owed to the step before, if any, then over h [s].
     void clear_impulse(std::int64_t particle_count);
-    void add_impulse(double h);
+    void add_impulse(double owed, double h);
     Vec3 impulse();
 
 private:

@@ -31,12 +31,14 @@ CudaDevice::CudaDevice(Sorting sorting) : sorting_(sorting)
     if (status != cudaSuccess)
         throw UserError(std::string("no GPU can be used (") + cudaGetErrorString(status) +
                         "); see that nvidia-smi lists one, or run with --device cpu");
+    check(cudaEventCreateWithFlags(&mark_, cudaEventDisableTiming), "making an event");
 }
 
 CudaDevice::~CudaDevice()
 {
     // A failure was reported where it happened.
     cudaFree(scratch_);
+    cudaEventDestroy(mark_);
     cudaStreamDestroy(stream_);
 }
 
@@ -87,6 +89,16 @@ void CudaDevice::zero(void* device, std::size_t bytes)
 void CudaDevice::wait()
 {
     check(cudaStreamSynchronize(stream_), "computing");
+}
+
+void CudaDevice::mark()
+{
+    check(cudaEventRecord(mark_, stream_), "recording an event");
+}
+
+void CudaDevice::wait_for_mark()
+{
+    check(cudaEventSynchronize(mark_), "computing");
 }
 
 void CudaDevice::check_launch()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// A GPU by way of CUDA: one stream, in which kernels and copies follow each other. For files that nvcc compiles.
 ///
-/// Of the runtime it uses memory, copies, streams and launches, and nothing else.
+/// Of the runtime it uses memory, copies, streams, events and launches, and nothing else.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -47,6 +47,8 @@ public:
     void copy(void* to, void const* from, std::size_t bytes);
     void zero(void* device, std::size_t bytes);
     void wait();
+    void mark();
+    void wait_for_mark();
 
     template <class Kernel>
     void for_each(Index count, Kernel const& kernel)
@@ -70,6 +72,7 @@ private:
 
     Sorting sorting_;
     cudaStream_t stream_ = nullptr;
+    cudaEvent_t mark_ = nullptr;
     void* scratch_ = nullptr;
     std::size_t scratch_bytes_ = 0;
 };
