@@ -8,8 +8,8 @@ namespace gimdem
 {
 
 template <class Device>
-void DeviceContacts<Device>::sum_forces(DeviceLaws<Device> const& laws, DeviceParticles<Device> const& particles,
-                                        DeviceNeighbors<Device> const& neighbors, double dt)
+void DeviceContacts<Device>::find_forces(DeviceLaws<Device> const& laws, DeviceParticles<Device> const& particles,
+                                         DeviceNeighbors<Device> const& neighbors, double dt)
 {
     pair_force_.resize(device_, neighbors.pair_count());
     laws.visit(
@@ -27,9 +27,16 @@ void DeviceContacts<Device>::sum_forces(DeviceLaws<Device> const& laws, DevicePa
                                                                    rolling_torque_.data()}});
                         });
         });
-    device_.for_each(particles.count(),
-                     Unless{neighbors.stale(), PairSumKernel{particles.view(), neighbors.view(), pair_force_.data(),
-                                                             rolling_torque_.data()}});
+}
+
+template <class Device>
+void DeviceContacts<Device>::sum_forces(DeviceParticles<Device> const& particles,
+                                        DeviceNeighbors<Device> const& neighbors, WallForcesView const& walls)
+{
+    device_.for_each(
+        particles.count(),
+        Unless{neighbors.stale(), ContactSumKernel<WallForcesView>{particles.view(), neighbors.view(),
+                                                                   pair_force_.data(), rolling_torque_.data(), walls}});
 }
 
 }  // namespace gimdem

@@ -130,6 +130,7 @@ private:
     /// The second half kick of the step before, if it is still owed, the first of this one, and the drift.
     void move(double dt)
     {
+        device_.fork();
         walls_.add_impulse(owed_, dt / 2);
         if (with_fluid_)
             device_.for_each(particles_.count(),
@@ -138,6 +139,7 @@ private:
         else
             device_.for_each(particles_.count(), MotionKernel<false>{particles_.view(), nullptr, nullptr, gravity_,
                                                                      owed_, dt / 2, neighbors_.stale_test()});
+        device_.join();
         owed_ = 0;
     }
 
@@ -146,7 +148,9 @@ private:
     {
         double const h = std::exchange(owed_, 0.0);
         if (h == 0) return;
+        device_.fork();
         walls_.add_impulse(0, h);
+        device_.join();
         if (with_fluid_)
             device_.for_each(particles_.count(), HalfKick<true>{particles_.view(), fluid_.loads(),
                                                                 particles_.impulses.data(), gravity_, h});
@@ -173,8 +177,11 @@ private:
 
     void launch_contact_forces(double dt)
     {
-        contacts_.sum_forces(laws_, particles_, neighbors_, dt);
-        walls_.add_forces(laws_, particles_, neighbors_.stale(), dt);
+        device_.fork();
+        walls_.find_forces(laws_, particles_, neighbors_.stale(), dt);
+        contacts_.find_forces(laws_, particles_, neighbors_, dt);
+        device_.join();
+        contacts_.sum_forces(particles_, neighbors_, walls_.forces());
     }
 
     bool build_neighbors()

@@ -111,6 +111,7 @@ public:
                 row_offsets_.data(),
                 by_second_.offsets.data(),
                 by_second_.members.data(),
+                own_seconds_.data(),
                 displacement_.data(),
                 rolling_spring_.data(),
                 touches_.data()};
@@ -145,6 +146,7 @@ private:
     bool sort_into_cells(DeviceParticles<Device>& particles);
     void list_pairs(DeviceParticles<Device> const& particles);
     void carry_springs();
+    void sort_by_second();
     template <class Work>
     void with_candidates(DeviceParticles<Device> const& particles, Work&& work) const;
 
@@ -159,7 +161,7 @@ private:
     CentreBox box_ = JoinBoxes{}.identity();
     SizeLevels levels_;
 
-    Array<std::int32_t> first_, second_, row_offsets_;
+    Array<std::int32_t> first_, second_, row_offsets_, own_seconds_;
     exec::DeviceGroups<Device> by_second_, by_cell_;
     Array<Quad> displacement_, rolling_spring_, built_at_;
     Array<std::uint8_t> touches_;
@@ -194,7 +196,7 @@ void DeviceNeighbors<Device>::upload(ParticleState const& particles, NeighborLis
     first_.upload(device_, list.first);
     touches_.upload(device_, list.touches);
     built_at_.upload(device_, list.built_at);
-    sort_(device_, {second_.data(), second_.size()}, static_cast<std::int32_t>(n), by_second_);
+    sort_by_second();
 }
 
 template <class Device>
@@ -286,7 +288,17 @@ void DeviceNeighbors<Device>::list_pairs(DeviceParticles<Device> const& particle
                         device_.for_each(n, PairFiller<Candidates, Near>{candidates, near, row_offsets_.data(),
                                                                          first_.data(), second_.data()});
                     });
-    sort_(device_, {second_.data(), pairs}, static_cast<std::int32_t>(n), by_second_);
+    sort_by_second();
+}
+
+template <class Device>
+void DeviceNeighbors<Device>::sort_by_second()
+{
+    std::int64_t const n = row_offsets_.size() - 1;
+    sort_(device_, {second_.data(), second_.size()}, static_cast<std::int32_t>(n), by_second_);
+    own_seconds_.resize(device_, n);
+    device_.for_each(
+        n, OwnSeconds{first_.data(), by_second_.offsets.data(), by_second_.members.data(), own_seconds_.data()});
 }
 
 template <class Device>

@@ -8,6 +8,8 @@
 ///   void* allocate_pinned(bytes), free_pinned(p)   the other way round
 ///   copy_in(device, host, bytes), copy_out(host, device, bytes), copy(device, device, bytes), zero(device, bytes)
 ///   for_each(count, kernel)                   a trivially copyable functor over views, operator()(Index) const
+///   fork(), for_each_beside(count, kernel), join()   kernels that may run at the same time as those asked for between
+///                                             the same fork() and join(); they follow what was asked for before fork()
 ///   wait()                                    until everything asked for has happened
 ///   mark(), wait_for_mark()                   until everything asked for before the last mark() has happened
 ///   scan_by_library(...), sort_by_library(...)     false where plain kernels are to do it

@@ -72,6 +72,14 @@ public:
             kernel((step * k + start) % count);
     }
 
+    template <class Kernel>
+    void for_each_beside(Index count, Kernel const& kernel)
+    {
+        for_each(count, kernel);
+    }
+    void fork() {}
+    void join() {}
+
     // It has no library.
     bool scan_by_library(View<std::int32_t>)
     {
