@@ -5,26 +5,33 @@
 
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
-#include "exec/Octet.hpp"
+#include "exec/Hexadecad.hpp"
 #include "exec/Vector.hpp"
 
 namespace gimdem
 {
 
-/// One number of each pair. Real: a Pack of them.
-template <class Real, int room>
+/// One number of each pair. The law takes them by Packs of its precision; from and to the particles they go by octets
+/// of doubles.
+template <class Number, int room>
 struct Column
 {
-    alignas(Real) typename Real::Number numbers[room];
+    alignas(64) Number numbers[room];
 
+    template <class Real>
     Real at(int n) const
     {
         Real out;
         std::memcpy(&out, numbers + n, sizeof out);
         return out;
     }
-    void set(int n, Real const& values) { std::memcpy(numbers + n, &values, sizeof values); }
+    template <class Real>
+    void set(int n, Real const& values)
+    {
+        std::memcpy(numbers + n, &values, sizeof values);
+    }
     void repeat_last(int count, int until)
     {
         for (int n = count; n < until; ++n)
@@ -33,17 +40,33 @@ struct Column
 };
 
 /// One vector of each pair.
-template <class Real, int room>
+template <class Number, int room>
 struct VectorColumn
 {
-    Column<Real, room> x, y, z;
+    Column<Number, room> x, y, z;
 
-    Vector3<Real> at(int n) const { return {x.at(n), y.at(n), z.at(n)}; }
+    template <class Real>
+    Vector3<Real> at(int n) const
+    {
+        return {x.template at<Real>(n), y.template at<Real>(n), z.template at<Real>(n)};
+    }
+    template <class Real>
     void set(int n, Vector3<Real> const& values)
     {
         x.set(n, values.x);
         y.set(n, values.y);
         z.set(n, values.z);
+    }
+    exec::OctetOfQuads load_eight(int n) const
+    {
+        return {exec::load_eight(x.numbers + n), exec::load_eight(y.numbers + n), exec::load_eight(z.numbers + n),
+                exec::Octet::Constant(0)};
+    }
+    void store_eight(int n, exec::OctetOfQuads const& values)
+    {
+        exec::store_eight(values.x, x.numbers + n);
+        exec::store_eight(values.y, y.numbers + n);
+        exec::store_eight(values.z, z.numbers + n);
     }
 };
 
@@ -51,14 +74,16 @@ struct Absent
 {
 };
 
+/// Real: exec::Octet, or exec::Hexadecad for a law in single precision.
 template <class Law, bool one_size, class Real_>
 struct ContactBatch
 {
     using Real = Real_;
     static constexpr int most = 64;
     static constexpr int room = most + 2 * exec::octet;
-    using Numbers = Column<Real, room>;
-    using Vectors = VectorColumn<Real, room>;
+    using Numbers = Column<typename Real::Number, room>;
+    using Vectors = VectorColumn<typename Real::Number, room>;
+    static constexpr bool is_single = sizeof(typename Real::Number) < sizeof(double);
     template <bool present, class Type>
     using Only = std::conditional_t<present, Type, Absent>;
 
@@ -68,6 +93,7 @@ struct ContactBatch
     // What look() finds.
     Vectors between;  ///< from the second to the first [m]
     Numbers square;   ///< of that [m^2]
+    [[no_unique_address]] Only<is_single, Numbers> closeness;  ///< square of the reach less that [m^2]
 
     // What gather() brings.
     Vectors velocity;         ///< of the first relative to the second [m/s]; then the force on the first [N]
@@ -82,7 +108,7 @@ struct ContactBatch
     /// Fills the last lanes with copies of the last pair.
     void pad()
     {
-        int const until = (count + exec::octet - 1) / exec::octet * exec::octet;
+        int const until = (count + Real::lanes - 1) / Real::lanes * Real::lanes;
         for (int n = count; n < until; ++n)
         {
             pair[n] = pair[count - 1];
@@ -91,6 +117,7 @@ struct ContactBatch
         }
         for (Numbers* column : {&between.x, &between.y, &between.z, &square})
             column->repeat_last(count, until);
+        if constexpr (is_single) closeness.repeat_last(count, until);
     }
 };
 

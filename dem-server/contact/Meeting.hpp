@@ -25,6 +25,7 @@ struct Encounter
 {
     Vector3<Real> between;          ///< centre of a - centre of b [m]
     Real square;                    ///< its square [m^2]
+    Real closeness;                 ///< (r_a + r_b)^2 - square [m^2]; only where Real is of single precision
     Vector3<Real> velocity;         ///< of a relative to b [m/s]
     Vector3<Real> spin_a, spin_b;   ///< [rad/s]; spheres of one size that do not resist rolling: their sum, and nothing
     Real radius_a, radius_b;        ///< [m]
@@ -39,6 +40,7 @@ GIMDEM_HD Encounter<Real> encounter(MovingSphere<Real> const& a, MovingSphere<Re
     space.shorten(between.x, between.y, between.z);
     return {.between = between,
             .square = between.dot(between),
+            .closeness = {},
             .velocity = a.velocity - b.velocity,
             .spin_a = a.spin,
             .spin_b = b.spin,
@@ -46,6 +48,18 @@ GIMDEM_HD Encounter<Real> encounter(MovingSphere<Real> const& a, MovingSphere<Re
             .radius_b = b.radius,
             .inverse_mass = a.inverse_mass + b.inverse_mass,
             .inverse_inertia = a.inverse_inertia + b.inverse_inertia};
+}
+
+/// r_a + r_b - distance [m]. In single precision the difference of two lengths would have lost the digits of a small
+/// overlap; it comes from the difference of their squares, taken in double, (D.42).
+template <class Real>
+GIMDEM_HD Real overlap_of(Encounter<Real> const& met, Real const& reach, Real const& per_distance)
+{
+    using namespace exec;
+    if constexpr (is_single<Real>)
+        return met.closeness / plus_product(reach, met.square, per_distance);
+    else
+        return minus_product(reach, met.square, per_distance);
 }
 
 /// Geometry of a contact, theory.md (D.1), (D.2). `one_size`: all spheres have one radius.
@@ -60,7 +74,7 @@ GIMDEM_HD ContactGeometry<Real> meet(Encounter<Real> const& met)
     Vector3<Real> normal = per_distance * met.between;
     normal.z = choose(apart, normal.z, one);
     Real const reach = met.radius_a + met.radius_b;
-    Real const overlap = minus_product(reach, met.square, per_distance);
+    Real const overlap = overlap_of(met, reach, per_distance);
     Real const half = overlap / 2;
     Vector3<Real> spin;
     if constexpr (one_size && !Law::rolls)

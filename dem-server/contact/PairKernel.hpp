@@ -47,12 +47,13 @@ struct OctetOfParticles : MovingSphere<exec::Octet>
 };
 
 /// Sets force and torque of a block's particles to the sum over its pairs, and advances the springs.
-template <class Law, bool one_material, bool one_size, class Space>
+/// Real: exec::Octet, or exec::Hexadecad for laws in single precision; what is stored is double.
+template <class Law, bool one_material, bool one_size, class Space, class Real = exec::Octet>
 struct PairKernel
 {
     using Octet = exec::Octet;
     using Four = exec::detail::Four;
-    using Batch = ContactBatch<Law, one_size, Octet>;
+    using Batch = ContactBatch<Law, one_size, Real>;
 
     ParticleView particles;
     NeighborListView list;
@@ -105,8 +106,9 @@ private:
         auto const apart = exec::load_difference(particles.position, i, j);
         Vector3<Octet> between{apart.x, apart.y, apart.z};
         space.shorten(between.x, between.y, between.z);
-        Octet const reach = apart.w, square = between.dot(between);
-        exec::LaneBits const now = exec::greater_lanes(reach * reach, square) & ((1u << count) - 1);
+        Octet const square = between.dot(between);
+        Octet const closeness = exec::minus_product(Octet(-square), apart.w, Octet(-apart.w));
+        exec::LaneBits const now = exec::greater_lanes(closeness, Octet::Constant(0)) & ((1u << count) - 1);
         auto const flags = exec::EightFlags::of(now);
         if ((exec::EightFlags::load(touches).bytes & ~flags.bytes) != 0) part(k, count, touches, flags);
         flags.store(touches);
@@ -116,6 +118,7 @@ private:
         exec::keep(now, between.y, found.between.y.numbers + at);
         exec::keep(now, between.z, found.between.z.numbers + at);
         exec::keep(now, square, found.square.numbers + at);
+        if constexpr (exec::is_single<Real>) exec::keep(now, closeness, found.closeness.numbers + at);
         exec::keep(now, i, found.first + at);
         exec::keep(now, j, found.second + at);
         std::int32_t pair[exec::octet];
@@ -154,100 +157,92 @@ private:
         {
             std::int32_t const *const i = found.first + n, *const j = found.second + n;
             auto const v = exec::load_difference(particles.velocity, i, j);
-            found.velocity.set(n, {v.x, v.y, v.z});
+            found.velocity.store_eight(n, v);
             if constexpr (one_size && !Law::rolls)
-            {
-                auto const w = exec::load_sum(particles.angular_velocity, i, j);
-                found.spin_a.set(n, {w.x, w.y, w.z});
-            }
+                found.spin_a.store_eight(n, exec::load_sum(particles.angular_velocity, i, j));
             else
             {
                 auto const wa = exec::load(particles.angular_velocity, i);
                 auto const wb = exec::load(particles.angular_velocity, j);
-                found.spin_a.set(n, {wa.x, wa.y, wa.z});
-                found.spin_b.set(n, {wb.x, wb.y, wb.z});
-                if constexpr (Law::rolls) found.inverse_inertia.set(n, wa.w + wb.w);
+                found.spin_a.store_eight(n, wa);
+                found.spin_b.store_eight(n, wb);
+                if constexpr (Law::rolls) exec::store_eight(wa.w + wb.w, found.inverse_inertia.numbers + n);
             }
             if constexpr (!one_size)
             {
-                Octet a, b;
                 for (int lane = 0; lane < exec::octet; ++lane)
                 {
-                    a[lane] = particles.position[i[lane]].w;
-                    b[lane] = particles.position[j[lane]].w;
+                    using Number = typename Real::Number;
+                    found.radius_a.numbers[n + lane] = static_cast<Number>(particles.position[i[lane]].w);
+                    found.radius_b.numbers[n + lane] = static_cast<Number>(particles.position[j[lane]].w);
                 }
-                found.radius_a.set(n, a);
-                found.radius_b.set(n, b);
-                found.inverse_mass.set(n, v.w);
+                exec::store_eight(v.w, found.inverse_mass.numbers + n);
             }
-            auto const old = exec::load(list.displacement, found.pair + n);
-            found.spring.set(n, {old.x, old.y, old.z});
+            found.spring.store_eight(n, exec::load(list.displacement, found.pair + n));
             if constexpr (Law::has_rolling_spring)
-            {
-                auto const rolled = exec::load(list.rolling_spring, found.pair + n);
-                found.rolling_spring.set(n, {rolled.x, rolled.y, rolled.z});
-            }
+                found.rolling_spring.store_eight(n, exec::load(list.rolling_spring, found.pair + n));
         }
     }
 
     GIMDEM_FLATTEN void apply_law(Batch& found) const
     {
-        for (int n = 0; n < found.count; n += exec::octet)
+        auto const known = constants[0];
+        double const radius = particles.position[0].w, inverse_mass = 2 * particles.velocity[0].w;
+        for (int n = 0; n < found.count; n += Real::lanes)
         {
-            Encounter<Octet> met{.between = found.between.at(n),
-                                 .square = found.square.at(n),
-                                 .velocity = found.velocity.at(n),
-                                 .spin_a = found.spin_a.at(n),
-                                 .spin_b = found.spin_b.at(n),
-                                 .radius_a = {},
-                                 .radius_b = {},
-                                 .inverse_mass = {},
-                                 .inverse_inertia = {}};
+            Encounter<Real> met;
+            met.between = found.between.template at<Real>(n);
+            met.square = found.square.template at<Real>(n);
+            met.velocity = found.velocity.template at<Real>(n);
+            met.spin_a = found.spin_a.template at<Real>(n);
+            if constexpr (!one_size || Law::rolls) met.spin_b = found.spin_b.template at<Real>(n);
+            if constexpr (exec::is_single<Real>) met.closeness = found.closeness.template at<Real>(n);
             if constexpr (one_size)
             {
-                met.radius_a = met.radius_b = Octet::Constant(particles.position[0].w);
-                met.inverse_mass = Octet::Constant(2 * particles.velocity[0].w);
+                met.radius_a = met.radius_b = Real::Constant(radius);
+                met.inverse_mass = Real::Constant(inverse_mass);
             }
             else
             {
-                met.radius_a = found.radius_a.at(n);
-                met.radius_b = found.radius_b.at(n);
-                met.inverse_mass = found.inverse_mass.at(n);
+                met.radius_a = found.radius_a.template at<Real>(n);
+                met.radius_b = found.radius_b.template at<Real>(n);
+                met.inverse_mass = found.inverse_mass.template at<Real>(n);
             }
-            if constexpr (Law::rolls) met.inverse_inertia = found.inverse_inertia.at(n);
-            ContactGeometry<Octet> const contact = meet<Law, one_size>(met);
-            ContactSprings<Octet> springs{found.spring.at(n)};
-            if constexpr (Law::has_rolling_spring) springs.rolling = found.rolling_spring.at(n);
-            ContactForce<Octet> const result = apply_law(contact, found.first + n, found.second + n, springs);
+            if constexpr (Law::rolls) met.inverse_inertia = found.inverse_inertia.template at<Real>(n);
+            ContactGeometry<Real> const contact = meet<Law, one_size>(met);
+            ContactSprings<Real> springs{found.spring.template at<Real>(n)};
+            if constexpr (Law::has_rolling_spring) springs.rolling = found.rolling_spring.template at<Real>(n);
+            ContactForce<Real> const result = apply_law(known, contact, found.first + n, found.second + n, springs);
             found.spring.set(n, springs.tangential);
             if constexpr (Law::has_rolling_spring) found.rolling_spring.set(n, springs.rolling);
 
-            Octet const half = contact.overlap / 2;
-            Vector3<Octet> const turn = result.tangential.cross(contact.normal);
-            Vector3<Octet> turn_a = Octet(met.radius_a - half) * turn;
+            Real const half = contact.overlap / 2;
+            Vector3<Real> const turn = result.tangential.cross(contact.normal);
+            Vector3<Real> turn_a = Real(met.radius_a - half) * turn;
             if constexpr (Law::rolls) turn_a = turn_a + result.rolling;
             found.velocity.set(n, result.force);
             found.spin_a.set(n, turn_a);
             if constexpr (!one_size)
             {
-                Vector3<Octet> turn_b = Octet(met.radius_b - half) * turn;
+                Vector3<Real> turn_b = Real(met.radius_b - half) * turn;
                 if constexpr (Law::rolls) turn_b = turn_b - result.rolling;
                 found.spin_b.set(n, turn_b);
             }
         }
     }
 
-    ContactForce<Octet> apply_law(ContactGeometry<Octet> const& contact, std::int32_t const* i, std::int32_t const* j,
-                                  ContactSprings<Octet>& springs) const
+    template <class Known>
+    ContactForce<Real> apply_law(Known const& known, ContactGeometry<Real> const& contact, std::int32_t const* i,
+                                 std::int32_t const* j, ContactSprings<Real>& springs) const
     {
         if constexpr (one_material)
-            return Law::template apply<Octet>(constants[0], dt, contact, springs);
+            return Law::template apply<Real>(known, dt, contact, springs);
         else
         {
-            std::int32_t row[exec::octet];
-            for (int n = 0; n < exec::octet; ++n)
+            std::int32_t row[Real::lanes];
+            for (int n = 0; n < Real::lanes; ++n)
                 row[n] = particles.material[i[n]] * material_count + particles.material[j[n]];
-            return Law::template apply<Octet>(octet_of<Law>(constants, row), dt, contact, springs);
+            return Law::template apply<Real>(lanes_of<Law, Real>(constants, row), dt, contact, springs);
         }
     }
 
@@ -260,59 +255,31 @@ private:
     }
     void scatter(Batch const& found, int n, int count) const
     {
-        store(found.spring.at(n), list.displacement, found.pair + n);
+        exec::store(found.spring.load_eight(n), list.displacement, found.pair + n);
         if constexpr (Law::has_rolling_spring)
-            store(found.rolling_spring.at(n), list.rolling_spring, found.pair + n);
+            exec::store(found.rolling_spring.load_eight(n), list.rolling_spring, found.pair + n);
         Quad force[exec::octet], torque_a[exec::octet], torque_b[exec::octet];
-        store(found.velocity.at(n), force);
-        store(found.spin_a.at(n), torque_a);
-        if constexpr (!one_size) store(found.spin_b.at(n), torque_b);
+        exec::store(found.velocity.load_eight(n), force);
+        exec::store(found.spin_a.load_eight(n), torque_a);
+        if constexpr (!one_size) exec::store(found.spin_b.load_eight(n), torque_b);
         for (int lane = 0; lane < count; ++lane)
         {
             std::int32_t const i = found.first[n + lane], j = found.second[n + lane];
-            Four f, ta, tb;
-            std::memcpy(&f, &force[lane], sizeof f);
-            std::memcpy(&ta, &torque_a[lane], sizeof f);
-            if constexpr (one_size) tb = ta; else
-            std::memcpy(&tb, &torque_b[lane], sizeof f);
-            add(f, particles.force[i]);
-            add(ta, particles.torque[i]);
-            give(list.border_slot[found.pair[n + lane]], j, -f, tb);
+            particles.force[i] = particles.force[i] + force[lane];
+            particles.torque[i] = particles.torque[i] + torque_a[lane];
+            give(list.border_slot[found.pair[n + lane]], j, force[lane], one_size ? torque_a[lane] : torque_b[lane]);
         }
     }
-    static void store(Vector3<Octet> const& from, Quad* values)
-    {
-        exec::store({from.x, from.y, from.z, Octet::Constant(0)}, values);
-    }
-    void give(std::int32_t slot, std::int32_t j, Four const& force, Four const& torque) const
+
+    void give(std::int32_t slot, std::int32_t j, Quad const& force, Quad const& torque) const
     {
         if (slot < 0)
         {
-            add(force, particles.force[j]);
-            add(torque, particles.torque[j]);
+            particles.force[j] = particles.force[j] - force;
+            particles.torque[j] = particles.torque[j] + torque;
         }
         else
-        {
-            set(force, border[slot].force);
-            set(torque, border[slot].torque);
-        }
-    }
-    static exec::QuadsOfOctet quads_of(Vector3<Octet> const& from)
-    {
-        return exec::QuadsOfOctet::of({from.x, from.y, from.z, Octet::Constant(0)});
-    }
-    static void add(Four const& what, Quad& to)
-    {
-        Four sum;
-        std::memcpy(&sum, &to, sizeof sum);
-        sum += what;
-        std::memcpy(&to, &sum, sizeof sum);
-    }
-    static void set(Four const& what, Quad& to) { std::memcpy(&to, &what, sizeof what); }
-
-    static void store(Vector3<Octet> const& from, Quad* values, std::int32_t const* place)
-    {
-        exec::store({from.x, from.y, from.z, Octet::Constant(0)}, values, place);
+            border[slot] = {{-force.x, -force.y, -force.z, 0}, torque};
     }
 };
 

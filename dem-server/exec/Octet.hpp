@@ -26,6 +26,23 @@ using Octet = Pack<double, octet>;
 using OctetMask = Mask<double, octet>;
 /// Eight numbers with all the functions of Eigen.
 using OctetArray = Eigen::Array<double, octet, 1>;
+inline OctetMask greater(OctetArray const& a, OctetArray const& b)
+{
+    Octet left, right;
+    std::memcpy(&left, a.data(), sizeof left);
+    std::memcpy(&right, b.data(), sizeof right);
+    return greater(left, right);
+}
+inline OctetArray choose(OctetMask const& condition, OctetArray const& yes, OctetArray const& no)
+{
+    Octet left, right;
+    std::memcpy(&left, yes.data(), sizeof left);
+    std::memcpy(&right, no.data(), sizeof right);
+    left = choose(condition, left, right);
+    OctetArray out;
+    std::memcpy(out.data(), &left, sizeof left);
+    return out;
+}
 
 /// Eight quadruples, transposed.
 struct OctetOfQuads

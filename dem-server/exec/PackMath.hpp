@@ -18,6 +18,9 @@
 namespace gimdem::exec
 {
 
+template <int n>
+inline constexpr bool is_single<Pack<float, n>> = true;
+
 /// Below it a root is taken of this instead: the square root of 0 is as good as 0.
 template <class Number>
 inline constexpr Number least = Number(1024) * std::numeric_limits<Number>::min();
@@ -92,7 +95,8 @@ inline Pack<float, 16> per_root_of_positive(Pack<float, 16> const& x)
     using Real = Pack<float, 16>;
     Real const y = {_mm512_rsqrt14_ps(x.v)};
     Real const h = minus_product(Real::Constant(1), Real(x * y), y);
-    return plus_product(y, Real(y * h), Real::Constant(0.5));
+    // Without the second term the result would be too small by 1e-8 always, which adds up over many steps.
+    return plus_product(y, Real(y * h), plus_product(Real::Constant(0.5), Real::Constant(0.375), h));
 }
 #endif
 
@@ -114,11 +118,11 @@ Pack<Number, n> root(Pack<Number, n> const& x)
     Pack<Number, n> const positive = at_least(least<Number>, x);
     return positive * per_root_of_positive(positive);
 }
-/// sqrt(a / b) for a, b > 0.
-template <int n>
-Pack<double, n> root_of_ratio(Pack<double, n> const& a, Pack<double, n> const& b)
+/// sqrt(a / b) for a, b >= 0, and 1 where both are 0.
+template <class Number, int n>
+Pack<Number, n> root_of_ratio(Pack<Number, n> const& a, Pack<Number, n> const& b)
 {
-    return a * per_root(Pack<double, n>(a * b));
+    return root(a) * per_root(b);
 }
 
 }  // namespace gimdem::exec

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <type_traits>
+
 #include "exec/HostDevice.hpp"
 
 namespace gimdem
@@ -44,6 +46,10 @@ GIMDEM_HD inline Quad operator*(double f, Quad const& a)
 
 namespace exec
 {
+
+/// Whether a kind of number, or of many, has single precision.
+template <class Real>
+inline constexpr bool is_single = std::is_same_v<Real, float>;
 
 // Packs have their own, that round once (exec/PackMath.hpp).
 /// c + a b.

@@ -61,10 +61,11 @@ GIMDEM_HD inline double per_root(double x)
 {
     return 1 / std::sqrt(x);
 }
-/// sqrt(a / b).
+/// sqrt(a / b) for a, b >= 0, and 1 where both are 0.
 GIMDEM_HD inline double root_of_ratio(double a, double b)
 {
-    return std::sqrt(a / b);
+    constexpr double tiny = 1e-300;
+    return std::sqrt((a + tiny) / (b + tiny));
 }
 GIMDEM_HD inline double exponential(double x)
 {

@@ -197,7 +197,7 @@ private:
                 all_known &= row[lane] == known;
             if (!all_known)
             {
-                eight = octet_of<Law>(constants, row);
+                eight = lanes_of<Law, Octet>(constants, row);
                 known = row[0];
                 for (int lane = 1; lane < exec::octet; ++lane)
                     if (row[lane] != known) known = -1;

@@ -17,9 +17,10 @@ using gimdem::exec::Backend;
 using gimdem::exec::Execution;
 
 /// 600 spheres of different sizes that fall into a heap, roll and rub, after 2000 steps.
-SphereBox heap(Execution execution)
+SphereBox heap(Execution execution, std::string const& precision)
 {
     Case settings = bead_case(0.8, 0.4);
+    settings.dem.precision = precision;
     settings.dem.gravity = {0.3, 0, -9.81};
     auto spheres = random_spheres(600, {0, 0, 0}, {1, 1, 1}, 0.5e-3, 1e-3);
     for (int n = 0; n < 600; ++n)
@@ -28,11 +29,15 @@ SphereBox heap(Execution execution)
     return SphereBox(settings, {{0.0185, 0.0185, 0.025}, closed()}, spheres, {}, execution);
 }
 
-TEST(Determinism, ThreadsDoNotChangeABitIn2000Steps)
+class DeterminismIn : public testing::TestWithParam<char const*>
+{
+};
+
+TEST_P(DeterminismIn, ThreadsDoNotChangeABitIn2000Steps)
 {
     auto const same = [](auto const& x, auto const& y)
     { return x.size() == y.size() && std::memcmp(x.host().data(), y.host().data(), x.host().size_bytes()) == 0; };
-    SphereBox one = heap(serial);
+    SphereBox one = heap(serial, GetParam());
     one.run(2000, 2e-5);
     auto const& a = one.particles();
     int touching = 0;
@@ -42,7 +47,7 @@ TEST(Determinism, ThreadsDoNotChangeABitIn2000Steps)
     EXPECT_GT(touching, 200);  // a heap, not a gas
     for (int threads : {1, 2, 3})
     {
-        SphereBox many = heap({Backend::openmp, threads});
+        SphereBox many = heap({Backend::openmp, threads}, GetParam());
         many.run(2000, 2e-5);
         auto const& b = many.particles();
         EXPECT_TRUE(same(a.id, b.id)) << threads;
@@ -53,5 +58,7 @@ TEST(Determinism, ThreadsDoNotChangeABitIn2000Steps)
         EXPECT_TRUE(same(one.system().neighbors().displacement, many.system().neighbors().displacement)) << threads;
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Precision, DeterminismIn, testing::Values("double", "mixed"));
 
 }  // namespace
