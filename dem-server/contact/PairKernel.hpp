@@ -10,6 +10,7 @@
 
 #include "contact/ContactModel.hpp"
 #include "contact/Meeting.hpp"
+#include "contact/SpringStore.hpp"
 #include "exec/Octet.hpp"
 #include "particles/Materials.hpp"
 #include "particles/ParticleState.hpp"
@@ -19,20 +20,24 @@
 namespace gimdem
 {
 
-/// What a touching pair across a border does to its second particle: one line of the cache.
-struct alignas(64) BorderForce
-{
-    Quad force;   ///< [N]
-    Quad torque;  ///< [N m]
-};
-
-/// Numbers of pairs that touch, picked from the list until there are enough to be worth a visit.
+/// Numbers of pairs of one block that touch, picked from the list until there are enough to be worth a visit.
 struct TouchingPairs
 {
     static constexpr int most = 256;
 
+    TouchingPairs(NeighborListView const& list, std::int64_t block)
+        : begin(static_cast<std::int32_t>(block * NeighborList::block)),
+          springs(list.pools[block]),
+          border_slot(list.border_begin[block])
+    {
+    }
+
+    std::int32_t const begin;  ///< first particle of the block
+    SpringPool& springs;       ///< of the block
+    std::int32_t border_slot;  ///< of the next pair that crosses the border
     int count = 0;
     std::int32_t pair[most + 2 * exec::octet];
+    std::int32_t border[most + 2 * exec::octet];  ///< slot of each pair, -1 where it stays within the block
 
     bool is_full() const { return count >= most; }
     /// Fills the last octet with copies of the last pair.
@@ -71,7 +76,7 @@ struct PairKernel
     typename Law::template Constants<double> const* constants;
     std::int32_t material_count;
     double dt;
-    BorderForce* border;
+    BorderForce* border;  ///< of the list; zero where a pair does not touch
     Space space;
 
     void operator()(std::int64_t b) const
@@ -82,7 +87,7 @@ struct PairKernel
         for (std::int64_t i = begin; i < end; ++i)
             particles.force[i] = particles.torque[i] = {0, 0, 0, 0};
 
-        TouchingPairs found;
+        TouchingPairs found(list, b);
         std::int32_t const last_pair = list.row_offsets[end];
         for (std::int32_t k = list.row_offsets[begin]; k < last_pair; k += exec::octet)
         {
@@ -101,7 +106,7 @@ private:
         for (int n = 0; n < exec::octet; ++n)
         {
             std::int32_t const pair = n < count ? k + n : k;
-            i[n] = list.first[pair];
+            i[n] = found.begin + list.first_in_block[pair];
             j[n] = list.second[pair];
         }
         auto const a = exec::load(particles.position, i), b = exec::load(particles.position, j);
@@ -111,47 +116,58 @@ private:
         exec::OctetMask const touching = exec::greater(reach * reach, dx * dx + dy * dy + dz * dz);
         for (int n = 0; n < count; ++n)
         {
-            auto const now = static_cast<std::uint8_t>(touching.lanes[n] != 0);
-            if (list.touches[k + n] > now)
-            {
-                list.displacement[k + n] = {0, 0, 0, 0};
-                if constexpr (Law::has_rolling_spring) list.rolling_spring[k + n] = {0, 0, 0, 0};
-            }
-            list.touches[k + n] = now;
+            bool const crosses = j[n] >= found.begin + NeighborList::block;
+            bool const now = touching.lanes[n] != 0;
+            SpringPool::Slot& slot = list.spring[k + n];
+            if (now != (slot != SpringPool::none))
+                change_touch(slot, crosses ? border + found.border_slot : nullptr, found.springs);
             found.pair[found.count] = k + n;
-            found.count += now;
+            found.border[found.count] = crosses ? found.border_slot : -1;
+            found.border_slot += crosses;
+            found.count += slot != SpringPool::none;
         }
+    }
+
+    /// A contact begins or ends: rarely, so that what looks at pairs is not burdened with it.
+    [[gnu::noinline]] static void change_touch(SpringPool::Slot& slot, BorderForce* border, SpringPool& springs)
+    {
+        if (slot == SpringPool::none)
+        {
+            slot = springs.take();
+            return;
+        }
+        springs.give_back(slot);
+        slot = SpringPool::none;
+        if (border != nullptr) *border = {{0, 0, 0}, {0, 0, 0}};
     }
 
     void compute(TouchingPairs& found) const
     {
         found.pad();
         for (int n = 0; n < found.count; n += exec::octet)
-            compute(found.pair + n, found.count - n < exec::octet ? found.count - n : exec::octet);
+            compute(found, n, found.count - n < exec::octet ? found.count - n : exec::octet);
         found.count = 0;
     }
 
-    /// Works on `count` pairs, at most eight.
-    GIMDEM_FLATTEN void compute(std::int32_t const* pair, int count) const
+    /// Works on `count` pairs from `from` on, at most eight.
+    GIMDEM_FLATTEN void compute(TouchingPairs const& found, int from, int count) const
     {
+        std::int32_t const* const pair = found.pair + from;
+        std::int32_t const* const border_slot = found.border + from;
         std::int32_t i[exec::octet], j[exec::octet];
         for (int n = 0; n < exec::octet; ++n)
         {
-            i[n] = list.first[pair[n]];
+            i[n] = found.begin + list.first_in_block[pair[n]];
             j[n] = list.second[pair[n]];
         }
         OctetOfParticles const a(particles, i), b(particles, j);
         ContactGeometry<Octet> const contact = meet<Law, one_size, Octet>(a, b, space);
-        auto const old = exec::load(list.displacement, pair);
-        ContactSprings<Octet> springs{{old.x, old.y, old.z}};
-        if constexpr (Law::has_rolling_spring)
-        {
-            auto const rolled = exec::load(list.rolling_spring, pair);
-            springs.rolling = {rolled.x, rolled.y, rolled.z};
-        }
+        SpringsOfOctet const stored(found.springs, list.spring, pair);
+        ContactSprings<Octet> springs{stored.tangential()};
+        if constexpr (Law::has_rolling_spring) springs.rolling = stored.rolling();
         ContactForce<Octet> const result = apply_law(contact, i, j, springs);
-        store(springs.tangential, list.displacement, pair);
-        if constexpr (Law::has_rolling_spring) store(springs.rolling, list.rolling_spring, pair);
+        stored.set_tangential(springs.tangential);
+        if constexpr (Law::has_rolling_spring) stored.set_rolling(springs.rolling);
 
         Vector3<Octet> const turn = result.tangential.cross(contact.normal);
         Vector3<Octet> turn_a = Octet(a.radius - contact.overlap / 2) * turn;
@@ -169,7 +185,7 @@ private:
         {
             particles.force[i[n]] = particles.force[i[n]] + force[n];
             particles.torque[i[n]] = particles.torque[i[n]] + torque_a[n];
-            give(list.border_slot[pair[n]], j[n], force[n], one_size ? torque_a[n] : torque_b[n]);
+            give(border_slot[n], j[n], force[n], one_size ? torque_a[n] : torque_b[n]);
         }
     }
 
@@ -181,12 +197,7 @@ private:
             particles.torque[j] = particles.torque[j] + torque;
         }
         else
-            border[slot] = {{-force.x, -force.y, -force.z, 0}, torque};
-    }
-
-    static void store(Vector3<Octet> const& from, Quad* values, std::int32_t const* place)
-    {
-        exec::store({from.x, from.y, from.z, Octet::Zero()}, values, place);
+            border[slot] = {{-force.x, -force.y, -force.z}, {torque.x, torque.y, torque.z}};
     }
 
     ContactForce<Octet> apply_law(ContactGeometry<Octet> const& contact, std::int32_t const* i, std::int32_t const* j,
@@ -204,7 +215,7 @@ private:
     }
 };
 
-/// Adds to particle i what the pairs of earlier blocks do to it.
+/// Adds to particle i what the pairs of earlier blocks do to it: nothing, where they do not touch.
 struct BorderKernel
 {
     ParticleView particles;
@@ -215,11 +226,9 @@ struct BorderKernel
     {
         for (std::int32_t m = list.border_offsets[i]; m < list.border_offsets[i + 1]; ++m)
         {
-            std::int32_t const pair = list.border_pairs[m];
-            if (list.touches[pair] == 0) continue;
-            BorderForce const& from = border[list.border_slot[pair]];
-            particles.force[i] = particles.force[i] + from.force;
-            particles.torque[i] = particles.torque[i] + from.torque;
+            auto const& [force, torque] = border[list.border_slots[m]];
+            particles.force[i] = particles.force[i] + Quad{force.x, force.y, force.z, 0};
+            particles.torque[i] = particles.torque[i] + Quad{torque.x, torque.y, torque.z, 0};
         }
     }
 };

@@ -2,15 +2,14 @@
 #include "contact/ParticleContacts.hpp"
 
 #include "exec/ForEach.hpp"
+#include "search/PairSprings.hpp"
 
 namespace gimdem
 {
 
 void ParticleContacts::sum_forces(ParticleState& particles, NeighborList& list, double dt)
 {
-    static_assert(sizeof(BorderForce) == 2 * sizeof(Quad));
-    list.spare.resize(2 * list.border.by_second.members.size());
-    auto* const border = reinterpret_cast<BorderForce*>(list.spare.view().data);
+    BorderForce* const border = list.border.force.view().data;
     model_.visit(
         [&]<class Law>(LawTable<Law> const& table)
         {
@@ -31,6 +30,7 @@ void ParticleContacts::sum_forces(ParticleState& particles, NeighborList& list, 
             else
                 compute.template operator()<true, false>(OpenSpace{});
         });
+    require_springs(list);
     exec::for_each(execution_, particles.count(), BorderKernel{particles.view(), list.view(), border});
 }
 
