@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Touching pairs side by side in columns, which the stages of PairKernel fill and work on one after the other: a short
+/// Touching pairs of one block side by side in columns, which the stages of PairKernel fill and work on one after the other: a short
 /// loop at a time, so that the processor has several rows of lanes under way.
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include "exec/Hexadecad.hpp"
 #include "exec/Vector.hpp"
+#include "search/NeighborList.hpp"
 
 namespace gimdem
 {
@@ -87,8 +88,21 @@ struct ContactBatch
     template <bool present, class Type>
     using Only = std::conditional_t<present, Type, Absent>;
 
+    ContactBatch(NeighborListView const& list, std::int64_t block)
+        : begin(static_cast<std::int32_t>(block * NeighborList::block)),
+          springs(list.pools[block]),
+          next_border(list.border_begin[block])
+    {
+    }
+
+    std::int32_t const begin;  ///< first particle of the block
+    SpringPool& springs;       ///< of the block
+    std::int32_t next_border;  ///< slot of the next pair that crosses the border
+
     int count = 0;
-    alignas(64) std::int32_t pair[room], first[room], second[room];
+    alignas(64) std::int32_t first[room], second[room];
+    alignas(64) std::int32_t slot[room];    ///< of the springs
+    alignas(64) std::int32_t border[room];  ///< slot of the force on the second, -1 where it is of the block
 
     // What look() finds.
     Vectors between;  ///< from the second to the first [m]
@@ -111,9 +125,9 @@ struct ContactBatch
         int const until = (count + Real::lanes - 1) / Real::lanes * Real::lanes;
         for (int n = count; n < until; ++n)
         {
-            pair[n] = pair[count - 1];
             first[n] = first[count - 1];
             second[n] = second[count - 1];
+            slot[n] = slot[count - 1];
         }
         for (Numbers* column : {&between.x, &between.y, &between.z, &square})
             column->repeat_last(count, until);

@@ -8,6 +8,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <cstring>
 
 #include "contact/ContactBatch.hpp"
 #include "contact/ContactModel.hpp"
@@ -21,13 +22,6 @@
 
 namespace gimdem
 {
-
-/// What a touching pair across a border does to its second particle: one line of the cache.
-struct alignas(64) BorderForce
-{
-    Quad force;   ///< [N]
-    Quad torque;  ///< [N m]
-};
 
 /// Where eight particles are, and how they move.
 struct OctetOfParticles : MovingSphere<exec::Octet>
@@ -60,7 +54,6 @@ struct PairKernel
     typename Law::template Constants<double> const* constants;
     std::int32_t material_count;
     double dt;
-    BorderForce* border;
     Space space;
 
     void operator()(std::int64_t b) const
@@ -71,7 +64,7 @@ struct PairKernel
         for (std::int64_t i = begin; i < end; ++i)
             particles.force[i] = particles.torque[i] = {0, 0, 0, 0};
 
-        Batch found;
+        Batch found(list, b);
         std::int32_t const last_pair = list.row_offsets[end];
         for (std::int32_t k = list.row_offsets[begin]; k < last_pair; k += exec::octet)
         {
@@ -85,60 +78,90 @@ private:
     /// Picks those that touch from the pairs k, k + 1, ... of which there are `left`.
     GIMDEM_FLATTEN void look(std::int32_t k, std::int32_t left, Batch& found) const
     {
-        if (left >= exec::octet) return look(k, list.first + k, list.second + k, list.touches + k, exec::octet, found);
         std::int32_t i[exec::octet], j[exec::octet];
-        std::uint8_t touches[exec::octet];
-        for (int n = 0; n < exec::octet; ++n)
-        {
-            std::int32_t const pair = n < left ? k + n : k;
-            i[n] = list.first[pair];
-            j[n] = list.second[pair];
-            touches[n] = list.touches[pair];
-        }
-        look(k, i, j, touches, left, found);
-        for (int n = 0; n < left; ++n)
-            list.touches[k + n] = touches[n];
+        if (left >= exec::octet)
+            for (int n = 0; n < exec::octet; ++n)
+            {
+                i[n] = found.begin + list.first_in_block[k + n];
+                j[n] = list.second[k + n];
+            }
+        else
+            for (int n = 0; n < exec::octet; ++n)
+            {
+                std::int32_t const pair = n < left ? k + n : k;
+                i[n] = found.begin + list.first_in_block[pair];
+                j[n] = list.second[pair];
+            }
+        look(k, i, j, left < exec::octet ? left : exec::octet, found);
     }
 
-    void look(std::int32_t k, std::int32_t const* i, std::int32_t const* j, std::uint8_t* touches, int count,
-              Batch& found) const
+    void look(std::int32_t k, std::int32_t const* i, std::int32_t const* j, int count, Batch& found) const
     {
         auto const apart = exec::load_difference(particles.position, i, j);
         Vector3<Octet> between{apart.x, apart.y, apart.z};
         space.shorten(between.x, between.y, between.z);
         Octet const square = between.dot(between);
         Octet const closeness = exec::minus_product(Octet(-square), apart.w, Octet(-apart.w));
-        exec::LaneBits const now = exec::greater_lanes(closeness, Octet::Constant(0)) & ((1u << count) - 1);
-        auto const flags = exec::EightFlags::of(now);
-        if ((exec::EightFlags::load(touches).bytes & ~flags.bytes) != 0) part(k, count, touches, flags);
-        flags.store(touches);
+        exec::LaneBits const valid = (1u << count) - 1;
+        exec::LaneBits const near = exec::greater_lanes(closeness, Octet::Constant(0)) & valid;
+        exec::LaneBits const crosses = exec::at_least_lanes(j, found.begin + int(NeighborList::block)) & valid;
+        std::int32_t border[exec::octet], slot[exec::octet];
+        exec::number(crosses, found.next_border, border);
+        exec::LaneBits const touching = spring_slots(k, count, near, border, found.springs, slot);
 
         int const at = found.count;
-        exec::keep(now, between.x, found.between.x.numbers + at);
-        exec::keep(now, between.y, found.between.y.numbers + at);
-        exec::keep(now, between.z, found.between.z.numbers + at);
-        exec::keep(now, square, found.square.numbers + at);
-        if constexpr (exec::is_single<Real>) exec::keep(now, closeness, found.closeness.numbers + at);
-        exec::keep(now, i, found.first + at);
-        exec::keep(now, j, found.second + at);
-        std::int32_t pair[exec::octet];
-        for (int n = 0; n < exec::octet; ++n)
-            pair[n] = k + n;
-        exec::keep(now, pair, found.pair + at);
-        found.count += std::popcount(now);
+        exec::keep(touching, between.x, found.between.x.numbers + at);
+        exec::keep(touching, between.y, found.between.y.numbers + at);
+        exec::keep(touching, between.z, found.between.z.numbers + at);
+        exec::keep(touching, square, found.square.numbers + at);
+        if constexpr (exec::is_single<Real>) exec::keep(touching, closeness, found.closeness.numbers + at);
+        exec::keep(touching, i, found.first + at);
+        exec::keep(touching, j, found.second + at);
+        exec::keep(touching, slot, found.slot + at);
+        exec::keep(touching, border, found.border + at);
+        found.next_border += std::popcount(crosses);
+        found.count += std::popcount(touching);
     }
 
-    /// Forgets the springs of the pairs that touch no more.
-    void part(std::int32_t k, int count, std::uint8_t const* before, exec::EightFlags now) const
+    /// Sees to it that those of the pairs from k on that are near have springs, and that the others have none. Returns
+    /// which have, and where.
+    exec::LaneBits spring_slots(std::int32_t k, int count, exec::LaneBits near, std::int32_t const* border,
+                                SpringPool& springs, std::int32_t* slot) const
     {
-        std::uint8_t touches[exec::octet];
-        now.store(touches);
-        for (int n = 0; n < count; ++n)
-            if (before[n] > touches[n])
-            {
-                list.displacement[k + n] = {0, 0, 0, 0};
-                if constexpr (Law::has_rolling_spring) list.rolling_spring[k + n] = {0, 0, 0, 0};
-            }
+        SpringPool::Slot slots[exec::octet];
+        auto const read = [&]
+        {
+            for (int n = 0; n < exec::octet; ++n)
+                slots[n] = n < count ? list.spring[k + n] : SpringPool::none;
+        };
+        if (count == exec::octet)
+            std::memcpy(slots, list.spring + k, sizeof slots);
+        else
+            read();
+        exec::LaneBits touching = exec::other_lanes(slots, SpringPool::none);
+        if (touching != near)
+        {
+            for (int n = 0; n < count; ++n)
+                if (((touching ^ near) >> n & 1) != 0) change_touch(list.spring[k + n], border[n], springs);
+            read();
+            touching = exec::other_lanes(slots, SpringPool::none);
+        }
+        for (int n = 0; n < exec::octet; ++n)
+            slot[n] = slots[n];
+        return touching;
+    }
+
+    /// A contact begins or ends: rarely, so that what looks at pairs is not burdened with it.
+    [[gnu::noinline]] void change_touch(SpringPool::Slot& slot, std::int32_t border, SpringPool& springs) const
+    {
+        if (slot == SpringPool::none)
+        {
+            slot = springs.take();
+            return;
+        }
+        springs.give_back(slot);
+        slot = SpringPool::none;
+        if (border >= 0) list.border_force[border] = {{0, 0, 0}, {0, 0, 0}};
     }
 
     void compute(Batch& found) const
@@ -178,9 +201,9 @@ private:
                 }
                 exec::store_eight(v.w, found.inverse_mass.numbers + n);
             }
-            found.spring.store_eight(n, exec::load(list.displacement, found.pair + n));
+            found.spring.store_eight(n, exec::load_threes(&found.springs.tangential()->x, found.slot + n));
             if constexpr (Law::has_rolling_spring)
-                found.rolling_spring.store_eight(n, exec::load(list.rolling_spring, found.pair + n));
+                found.rolling_spring.store_eight(n, exec::load_threes(&found.springs.rolling()->x, found.slot + n));
         }
     }
 
@@ -246,18 +269,18 @@ private:
         }
     }
 
-    GIMDEM_FLATTEN void scatter(Batch const& found) const
+    GIMDEM_FLATTEN void scatter(Batch& found) const
     {
         int n = 0;
         for (; n + exec::octet <= found.count; n += exec::octet)
             scatter(found, n, exec::octet);
         if (n < found.count) scatter(found, n, found.count - n);
     }
-    void scatter(Batch const& found, int n, int count) const
+    void scatter(Batch& found, int n, int count) const
     {
-        exec::store(found.spring.load_eight(n), list.displacement, found.pair + n);
+        exec::store_threes(found.spring.load_eight(n), &found.springs.tangential()->x, found.slot + n);
         if constexpr (Law::has_rolling_spring)
-            exec::store(found.rolling_spring.load_eight(n), list.rolling_spring, found.pair + n);
+            exec::store_threes(found.rolling_spring.load_eight(n), &found.springs.rolling()->x, found.slot + n);
         Quad force[exec::octet], torque_a[exec::octet], torque_b[exec::octet];
         exec::store(found.velocity.load_eight(n), force);
         exec::store(found.spin_a.load_eight(n), torque_a);
@@ -267,23 +290,23 @@ private:
             std::int32_t const i = found.first[n + lane], j = found.second[n + lane];
             particles.force[i] = particles.force[i] + force[lane];
             particles.torque[i] = particles.torque[i] + torque_a[lane];
-            give(list.border_slot[found.pair[n + lane]], j, force[lane], one_size ? torque_a[lane] : torque_b[lane]);
+            give(found.border[n + lane], j, force[lane], one_size ? torque_a[lane] : torque_b[lane]);
         }
     }
 
-    void give(std::int32_t slot, std::int32_t j, Quad const& force, Quad const& torque) const
+    void give(std::int32_t border, std::int32_t j, Quad const& force, Quad const& torque) const
     {
-        if (slot < 0)
+        if (border < 0)
         {
             particles.force[j] = particles.force[j] - force;
             particles.torque[j] = particles.torque[j] + torque;
         }
         else
-            border[slot] = {{-force.x, -force.y, -force.z, 0}, torque};
+            list.border_force[border] = {{-force.x, -force.y, -force.z}, {torque.x, torque.y, torque.z}};
     }
 };
 
-/// Adds to particle i what the pairs of earlier blocks do to it.
+/// Adds to particle i what the pairs of earlier blocks do to it: nothing, where they do not touch.
 struct BorderKernel
 {
     ParticleView particles;
@@ -294,11 +317,9 @@ struct BorderKernel
     {
         for (std::int32_t m = list.border_offsets[i]; m < list.border_offsets[i + 1]; ++m)
         {
-            std::int32_t const pair = list.border_pairs[m];
-            if (list.touches[pair] == 0) continue;
-            BorderForce const& from = border[list.border_slot[pair]];
-            particles.force[i] = particles.force[i] + from.force;
-            particles.torque[i] = particles.torque[i] + from.torque;
+            auto const& [force, torque] = border[list.border_slots[m]];
+            particles.force[i] = particles.force[i] + Quad{force.x, force.y, force.z, 0};
+            particles.torque[i] = particles.torque[i] + Quad{torque.x, torque.y, torque.z, 0};
         }
     }
 };

@@ -43,7 +43,7 @@ public:
 private:
     /// The sum over the pairs of each block, by a law in Real: exec::Octet or exec::Hexadecad.
     template <class Real>
-    void sum_pairs(ParticleState& particles, NeighborList& list, double dt, BorderForce* border);
+    void sum_pairs(ParticleState& particles, NeighborList& list, double dt);
 
     exec::Execution execution_;
     ContactModel model_;

@@ -9,7 +9,7 @@ namespace gimdem
 {
 
 template <class Real>
-void ParticleContacts::sum_pairs(ParticleState& particles, NeighborList& list, double dt, BorderForce* border)
+void ParticleContacts::sum_pairs(ParticleState& particles, NeighborList& list, double dt)
 {
     model_.visit(
         [&]<class Law>(LawTable<Law> const& table)
@@ -19,7 +19,7 @@ void ParticleContacts::sum_pairs(ParticleState& particles, NeighborList& list, d
                 exec::for_each_uneven(execution_, list.block_count(),
                                       PairKernel<Law, one_material, one_size, decltype(space), Real>{
                                           particles.view(), list.view(), table.constants.view().data, material_count_,
-                                          dt, border, space});
+                                          dt, space});
             };
             // Periodic scenes are few: one kernel serves them all.
             if (domain_.is_periodic())

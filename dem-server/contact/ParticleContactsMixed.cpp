@@ -4,6 +4,6 @@
 namespace gimdem
 {
 
-template void ParticleContacts::sum_pairs<exec::Hexadecad>(ParticleState&, NeighborList&, double, BorderForce*);
+template void ParticleContacts::sum_pairs<exec::Hexadecad>(ParticleState&, NeighborList&, double);
 
 }  // namespace gimdem

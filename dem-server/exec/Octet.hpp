@@ -64,19 +64,19 @@ namespace detail
 using Four = double __attribute__((vector_size(32)));
 using Eight = Octet::Vector;
 
-inline Four four_of(Quad const& q)
+inline Four four_at(double const* from)
 {
     Four out;
-    std::memcpy(&out, &q, sizeof out);
+    std::memcpy(&out, from, sizeof out);
     return out;
 }
-inline Eight load_two(Quad const& a, Quad const& b)
+inline Eight load_two(double const* a, double const* b)
 {
 #ifdef __AVX512F__
     // Straight from memory into the upper half: the unit that permutes has enough to do.
-    return _mm512_insertf64x4(_mm512_castpd256_pd512(four_of(a)), four_of(b), 1);
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(four_at(a)), four_at(b), 1);
 #else
-    return __builtin_shufflevector(four_of(a), four_of(b), 0, 1, 2, 3, 4, 5, 6, 7);
+    return __builtin_shufflevector(four_at(a), four_at(b), 0, 1, 2, 3, 4, 5, 6, 7);
 #endif
 }
 /// The sign of x, y and z of two quadruples turned round.
@@ -114,9 +114,8 @@ struct QuadsOfOctet
     static QuadsOfOctet load(Quad const* values, std::int32_t const* place)
     {
         using detail::load_two;
-        return {
-            load_two(values[place[0]], values[place[2]]), load_two(values[place[1]], values[place[3]]),
-            load_two(values[place[4]], values[place[6]]), load_two(values[place[5]], values[place[7]])};
+        auto const at = [=](int lane) { return &values[place[lane]].x; };
+        return {load_two(at(0), at(2)), load_two(at(1), at(3)), load_two(at(4), at(6)), load_two(at(5), at(7))};
     }
     friend QuadsOfOctet operator+(QuadsOfOctet const& a, QuadsOfOctet const& b)
     {
@@ -174,6 +173,14 @@ inline OctetOfQuads load(Quad const* values, std::int32_t const* place)
 {
     return QuadsOfOctet::load(values, place).transposed();
 }
+/// values[3 place[i]] and the two behind it, for each lane; a fourth is read and must be there.
+inline OctetOfQuads load_threes(double const* values, std::int32_t const* place)
+{
+    auto const at = [=](int lane) { return values + 3 * static_cast<std::int64_t>(place[lane]); };
+    using detail::load_two;
+    return QuadsOfOctet{load_two(at(0), at(2)), load_two(at(1), at(3)), load_two(at(4), at(6)), load_two(at(5), at(7))}
+        .transposed();
+}
 /// values[a[i]] - values[b[i]] for each lane, but w of the sum.
 inline OctetOfQuads load_difference(Quad const* values, std::int32_t const* a, std::int32_t const* b)
 {
@@ -190,6 +197,22 @@ inline void store(OctetOfQuads const& from, Quad* values, std::int32_t const* pl
 {
     QuadsOfOctet::of(from).for_each(octet, [=]<int lane>(detail::Four const& value)
                                     { std::memcpy(&values[place[lane]], &value, sizeof value); });
+}
+/// Three numbers from `to` on <- the first three of four.
+inline void store_three(detail::Four const& from, double* to)
+{
+#ifdef __AVX512VL__
+    _mm256_mask_storeu_pd(to, 0b111, from);
+#else
+    std::memcpy(to, &from, 3 * sizeof *to);
+#endif
+}
+/// values[3 place[i]] and the two behind it <- x, y, z of lane i, in rising order of lanes.
+inline void store_threes(OctetOfQuads const& from, double* values, std::int32_t const* place)
+{
+    QuadsOfOctet::of(from).for_each(octet,
+                                    [=]<int lane>(detail::Four const& value)
+                                    { store_three(value, values + 3 * static_cast<std::int64_t>(place[lane])); });
 }
 /// values[i] <- lane i.
 inline void store(OctetOfQuads const& from, Quad* values)

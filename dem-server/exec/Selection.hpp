@@ -47,29 +47,44 @@ inline void keep(LaneBits chosen, std::int32_t const* from, std::int32_t* to)
 #endif
 }
 
-/// Eight flags of one byte each, 0 or 1, that lie one after the other.
-struct EightFlags
+/// Lanes whose number is at least `low`.
+inline LaneBits at_least_lanes(std::int32_t const* values, std::int32_t low)
 {
-    std::uint64_t bytes;
-
-    static EightFlags load(std::uint8_t const* from)
-    {
-        EightFlags out;
-        std::memcpy(&out.bytes, from, sizeof out.bytes);
-        return out;
-    }
-    static EightFlags of(LaneBits bits)
-    {
-#ifdef __BMI2__
-        return {_pdep_u64(bits, 0x0101010101010101)};
+#ifdef __AVX512VL__
+    __m256i const all = _mm256_loadu_si256(reinterpret_cast<__m256i const*>(values));
+    return _mm256_cmpge_epi32_mask(all, _mm256_set1_epi32(low));
 #else
-        std::uint8_t flags[octet];
-        for (int lane = 0; lane < octet; ++lane)
-            flags[lane] = bits >> lane & 1;
-        return load(flags);
+    LaneBits bits = 0;
+    for (int lane = 0; lane < octet; ++lane)
+        bits |= LaneBits(values[lane] >= low) << lane;
+    return bits;
 #endif
-    }
-    void store(std::uint8_t* to) const { std::memcpy(to, &bytes, sizeof bytes); }
-};
+}
+/// Lanes whose number is another one.
+inline LaneBits other_lanes(std::uint16_t const* values, std::uint16_t than)
+{
+#if defined(__AVX512VL__) && defined(__AVX512BW__)
+    __m128i const all = _mm_loadu_si128(reinterpret_cast<__m128i const*>(values));
+    return _mm_cmpneq_epi16_mask(all, _mm_set1_epi16(static_cast<short>(than)));
+#else
+    LaneBits bits = 0;
+    for (int lane = 0; lane < octet; ++lane)
+        bits |= LaneBits(values[lane] != than) << lane;
+    return bits;
+#endif
+}
+
+/// Numbers the chosen lanes from `from` on; all others get -1.
+inline void number(LaneBits chosen, std::int32_t from, std::int32_t* to)
+{
+#ifdef __AVX512VL__
+    __m256i const numbers = _mm256_add_epi32(_mm256_set1_epi32(from), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                        _mm256_mask_expand_epi32(_mm256_set1_epi32(-1), static_cast<__mmask8>(chosen), numbers));
+#else
+    for (int lane = 0; lane < octet; ++lane)
+        to[lane] = (chosen >> lane & 1) != 0 ? from++ : -1;
+#endif
+}
 
 }  // namespace gimdem::exec

@@ -10,6 +10,7 @@
 #include <malloc.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <sstream>
@@ -19,6 +20,29 @@
 #include "engine/DemSystem.hpp"
 #include "engine/device/DeviceDem.hpp"
 #include "particles/Insertion.hpp"
+
+namespace
+{
+
+/// Memory that the program holds at present, what it gave back excluded [B].
+std::size_t memory_in_use()
+{
+    struct mallinfo2 const all = mallinfo2();
+    return all.uordblks + all.hblkhd;  // small blocks, and those with pages of their own
+}
+
+std::size_t peak = 0;  ///< of memory_in_use(), as far as arrays grew [B]
+
+}  // namespace
+
+/// In place of the C library's: whatever holds much memory is a Buffer, and gets it here.
+extern "C" void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept
+{
+    void* const memory = memalign(alignment, size);
+#pragma omp critical
+    peak = std::max(peak, memory_in_use());
+    return memory;
+}
 
 namespace
 {
@@ -109,13 +133,6 @@ void write_data(std::string const& path, ParticleState const& p, std::vector<dou
     if (!file) throw std::runtime_error("cannot write " + path);
 }
 
-/// Memory that the program holds at present, what it gave back excluded [B].
-std::size_t memory_in_use()
-{
-    struct mallinfo2 const all = mallinfo2();
-    return all.uordblks + all.hblkhd;  // small blocks, and those with pages of their own
-}
-
 double kinetic_energy(ParticleState const& p)
 {
     double sum = 0;
@@ -142,7 +159,7 @@ void run(Options const& options)
     PolyMesh const mesh(test::BoxMesh::make({1, 1, 1}, {options.box[0], options.box[1], options.box[2]}));
     WallGeometry const walls(mesh, {"bottom"}, 0.9e-3);
     settings.insertion = {lattice(options.box, options.count)};
-    std::size_t const before = memory_in_use();
+    std::size_t const before = peak = memory_in_use();
     DemSystem system(
         settings, execution, materials, walls,
         options.data.empty() ? insert_particles(settings, materials) : test::particles_of(read_data(options.data)));
@@ -168,6 +185,7 @@ void run(Options const& options)
     fmt::print("figure: dem_list_rebuilds = {} [1]\n", system.rebuilds() - rebuilds);
     fmt::print("figure: dem_pairs_per_particle = {:.4g} [1]\n", double(system.neighbors().pair_count()) / n);
     fmt::print("figure: bytes_per_particle = {:.4g} [B]\n", bytes / n);
+    fmt::print("figure: bytes_per_particle_peak = {:.4g} [B]\n", static_cast<double>(peak - before) / n);
     fmt::print("figure: dem_kinetic_energy = {:.6g} [J]\n", kinetic_energy(system.particles()));
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "SphereBox.hpp"
+#include "search/PairSprings.hpp"
 
 namespace gimdem::test
 {
@@ -89,9 +90,10 @@ inline BedFigures figures_of(SphereBox const& bed)
     f.kinetic_energy = kinetic_energy(p);
     auto const n = static_cast<double>(p.count());
     std::int64_t contacts = 0;
+    auto const first = first_of_pairs(list);
     for (std::int64_t k = 0; k < list.pair_count(); ++k)
     {
-        Quad const a = p.position[list.first[k]], b = p.position[list.second[k]];
+        Quad const a = p.position[first[k]], b = p.position[list.second[k]];
         double const overlap = a.w + b.w - (a.xyz() - b.xyz()).norm();
         if (overlap <= 0) continue;
         ++contacts;
