@@ -20,15 +20,16 @@ double force(Motion const& at, double damping, Stiffening stiffening)
 {
     double const x = at.overlap > 0 ? at.overlap : 0;
     double const root = std::sqrt(x);
-    return stiffening == Stiffening::hertz ? -x * root - damping * std::sqrt(root) * at.speed
-                                           : -x - damping * at.speed;
+    return stiffening == Stiffening::hertz ? -x * root - damping * std::sqrt(root) * at.speed : -x - damping * at.speed;
 }
 
 /// One step h of Runge and Kutta.
 Motion advance(Motion const& at, double h, double damping, Stiffening stiffening)
 {
     auto const rate = [&](Motion const& m) { return Motion{m.speed, force(m, damping, stiffening)}; };
-    auto const on = [&](Motion const& k, double t) { return Motion{at.overlap + t * k.overlap, at.speed + t * k.speed}; };
+    auto const on = [&](Motion const& k, double t) {
+        return Motion{at.overlap + t * k.overlap, at.speed + t * k.speed};
+    };
     Motion const a = rate(at), b = rate(on(a, h / 2)), c = rate(on(b, h / 2)), d = rate(on(c, h));
     return {at.overlap + h / 6 * (a.overlap + 2 * b.overlap + 2 * c.overlap + d.overlap),
             at.speed + h / 6 * (a.speed + 2 * b.speed + 2 * c.speed + d.speed)};
