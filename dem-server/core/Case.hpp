@@ -61,8 +61,10 @@ struct MaterialSettings
 struct ContactSettings
 {
     std::array<std::string, 2> pair;
-    double restitution = 1;  ///< normal, in [0.05, 1]
-    double friction = 0;     ///< Coulomb coefficient of sliding
+    double restitution = 1;          ///< normal, in [0.05, 1]
+    double friction = 0;             ///< Coulomb coefficient of sliding
+    bool limit_damping = false;      ///< the dashpot never pulls; it is tuned so that the restitution stays
+    bool tangential_damping = true;  ///< whether the tangential spring has a dashpot beside it
 
     // Only where the laws chosen in [dem] need them; check_contact_laws sees to it that they are given.
     double normal_stiffness = 0;                  ///< k_n of the linear law [N/m]

@@ -101,6 +101,20 @@ Real logarithm(Eigen::ArrayBase<Real> const& x)
     return x.log();
 }
 
+/// x, but no less than `floor`.
+template <class Real, class Floor>
+GIMDEM_HD Real no_less(Real const& x, Floor const& floor)
+{
+    Real const bound = [&]
+    {
+        if constexpr (std::is_same_v<Real, Floor>)
+            return floor;
+        else
+            return broadcast<Real>(floor);
+    }();
+    return choose(greater(x, bound), x, bound);
+}
+
 // g++ 12 takes the deliberately undefined operand of its own AVX-512 intrinsics for a mistake of ours.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
