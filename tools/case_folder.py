@@ -35,6 +35,7 @@ class CaseDescription:
     endpoint: str
     timeout: float  # a silent peer is dead after this [s]
     device: str = "auto"  # where the particles are computed
+    precision: str | None = None  # of the contact laws, None: as the case file says
 
     @property
     def folder(self) -> Path:

@@ -30,6 +30,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--schedule", choices=("serial", "overlapped"), help="who waits for whom (case.toml)")
     parser.add_argument("--device", choices=("auto", "cuda", "cpu"), default="auto",
                         help="where the particles are computed")
+    parser.add_argument("--precision", choices=("double", "mixed"), help="of the contact laws (case.toml)")
     parser.add_argument("--grid", metavar="X", help="mesh variant of the case (case.toml)")
     parser.add_argument("--until", metavar="T", type=positive, help="simulated time [s] (case.toml)")
     parser.add_argument("--threads", metavar="N", type=count, help="threads of the server; 0: all cores (case.toml)")
@@ -95,6 +96,7 @@ def choose(case: CaseDescription, options: argparse.Namespace) -> CaseDescriptio
     case.schedule = options.schedule or case.schedule
     case.until = options.until or case.until
     case.device = options.device
+    case.precision = options.precision
     refuse_what_is_to_come(case.client, "auto", 1)
     return case
 
@@ -130,6 +132,8 @@ class Run:
             self.endpoint.address, "--until", repr(self.case.until), "--schedule", self.case.schedule,
             "--device", self.case.device,
         ]
+        if self.case.precision is not None:
+            command += ["--precision", self.case.precision]
         if self.threads is not None:
             command += ["--threads", str(self.threads)]
         if self.restart:

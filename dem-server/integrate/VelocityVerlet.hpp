@@ -3,6 +3,8 @@
 /// implicitly, so that no drag is too stiff for the time step.
 #pragma once
 
+#include <limits>
+
 #include "exec/Buffer.hpp"
 #include "integrate/Kick.hpp"
 #include "particles/ParticleState.hpp"
@@ -42,6 +44,25 @@ struct Drift
     GIMDEM_HD void operator()(std::int64_t i) const
     {
         particles.position[i] = drifted(particles.position[i], particles.velocity[i], dt);
+    }
+};
+
+/// Half kick, drift, and how far the particle is then from where it was when the list of pairs was built: one pass over
+/// the particles instead of three.
+template <bool fluid>
+struct KickAndDrift
+{
+    HalfKick<fluid> kick;
+    Drift drift;
+    Constant3 const* built_at;  ///< [m]
+
+    /// Its square [m^2]; without end for what is not a number, which must not hide.
+    GIMDEM_HD double operator()(std::int64_t i) const
+    {
+        kick(i);
+        drift(i);
+        double const squared = (drift.particles.position[i].xyz() - built_at[i].vec()).squaredNorm();
+        return squared >= 0 ? squared : std::numeric_limits<double>::infinity();
     }
 };
 
