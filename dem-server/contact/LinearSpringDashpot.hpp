@@ -55,14 +55,15 @@ struct LinearSpringDashpot
         Real const stiffness = in_every_lane<Real>(constants.stiffness);
         Real const dashpot = constants.damping * root(Real(stiffness * contact.mass_eff));
         Real const v_n = contact.velocity.dot(contact.normal);
-        Real const normal_force = no_less(Real(stiffness * contact.overlap - dashpot * v_n), constants.least_force);
+        Real const normal_force =
+            no_less(minus_product(Real(stiffness * contact.overlap), dashpot, v_n), constants.least_force);
 
         // Tangential, (D.32), (D.9)-(D.12).
-        Vector3<Real> const v_t = contact.velocity - v_n * contact.normal;
+        Vector3<Real> const v_t = contact.velocity.minus(v_n, contact.normal);
         TangentialSpring<Real> const rub{constants.stiffness_ratio * stiffness, constants.tangential_share * dashpot,
                                          constants.friction * magnitude(normal_force)};
         Vector3<Real> const tangential = rub(contact.normal, v_t, dt, displacement);
-        return {normal_force * contact.normal + tangential, tangential, normal_force, stiffness};
+        return {tangential.plus(normal_force, contact.normal), tangential, normal_force, stiffness};
     }
 
     /// How long a contact without damping lasts [s], (D.31). stiffness [N/m], mass_eff [kg].

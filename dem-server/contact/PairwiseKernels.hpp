@@ -71,7 +71,7 @@ private:
     GIMDEM_HD void compute(std::int64_t k, std::int32_t i, std::int32_t j) const
     {
         MovingSphere<double> const a = sphere(i), b = sphere(j);
-        ContactGeometry<double> const contact = meet<Law, false>(a, b, space);
+        ContactGeometry<double> const contact = meet<Law, false>(encounter(a, b, space));
         ContactSprings<double> springs{vector3(list.displacement[k].xyz())};
         if constexpr (Law::has_rolling_spring) springs.rolling = vector3(list.rolling_spring[k].xyz());
         ContactForce<double> const result = Law::template apply<double>(

@@ -41,6 +41,7 @@ struct DemSettings
     int threads = 0;                            ///< 0: all cores
     std::string backend = "openmp";             ///< serial | openmp | cuda
     std::string sorting = "library";            ///< library | plain: who scans and sorts on a GPU
+    std::string precision = "double";           ///< double | mixed: of the contact laws between particles
     double skin = 0.3;                          ///< of the neighbour list, in units of the smallest radius [1]
     std::string contact_law = "hertz-mindlin";  ///< one of force_law_names
     std::string rolling_friction = "none";      ///< one of rolling_law_names

@@ -75,6 +75,8 @@ Fields<DemSettings> const& settings_of(DemSettings const&)
                  "what runs the loops; cuda: a GPU"),
         optional("sorting",   &S::sorting,   "", one_of({"library", "plain"}), "\"library\"",
                  "what scans and sorts on a GPU: CUB, or the kernels of this program"),
+        optional("precision", &S::precision, "", one_of({"double", "mixed"}), "\"double\"",
+                 "of the laws of contacts between particles; mixed: single, where all else stays double"),
         optional("skin",      &S::skin,      "", fraction(0, 1), "0.3",
                  "of the neighbour list, in units of the smallest radius"),
         optional("contact_law", &S::contact_law, "", one_of(words(force_law_names)), "\"linear\"",

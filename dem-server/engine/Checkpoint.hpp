@@ -14,7 +14,7 @@ namespace gimdem
 {
 
 /// Version of what a checkpoint holds; a reader accepts its own only.
-inline constexpr std::int64_t checkpoint_version = 1;
+inline constexpr std::int64_t checkpoint_version = 2;
 
 /// Where a run is.
 struct RunPoint

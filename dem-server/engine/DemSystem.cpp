@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/PrecisionCheck.hpp"
 #include "engine/device/DeviceDem.hpp"
 #include "exec/ForEach.hpp"
 #include "integrate/VelocityVerlet.hpp"
@@ -22,6 +23,7 @@ DemSystem::DemSystem(Case const& settings, exec::Execution execution, Materials 
       particle_contacts_(execution, materials, have_one_size(particles_), Domain::of(settings.domain)),
       wall_contacts_(execution, materials, materials.number_of(settings.walls.material), walls)
 {
+    check_precision(settings, execution, smallest_radius(settings, particles_));
     for (std::int64_t const id : particles_.id.host())
         next_id_ = std::max(next_id_, id + 1);
     neighbors_.carries_rolling = particle_contacts_.has_rolling_springs();
@@ -98,11 +100,21 @@ void DemSystem::drift(double dt)
 void DemSystem::update_neighbors()
 {
     if (!search_.is_stale(particles_, neighbors_) && !wall_contacts_.is_stale(search_.skin())) return;
-    auto const order = search_.build(particles_, neighbors_);
-    wall_contacts_.build(particles_, search_.skin(), order);
+    auto const order = build_lists();
     if (impulses_.size() > 0) permute(execution_, impulses_, order);
     if (on_permutation_) on_permutation_(order);
     ++rebuilds_;
+}
+
+/// Builds both lists; the particles change places, and their forces are lost. Returns the permutation.
+std::span<std::int32_t const> DemSystem::build_lists()
+{
+    auto const order = search_.build(particles_, neighbors_);
+    room_.clear();
+    room_.lend(particles_.force);
+    room_.lend(particles_.torque);
+    wall_contacts_.build(particles_, search_.skin(), order, room_);
+    return order;
 }
 
 void DemSystem::sum_contact_forces(double dt)

@@ -121,6 +121,7 @@ private:
     void half_kick(double h);
     void drift(double dt);
     void update_neighbors();
+    std::span<std::int32_t const> build_lists();
     void sum_contact_forces(double dt);
     void update_fluid_loads();
     void to_look() const;
@@ -134,6 +135,7 @@ private:
     NeighborList neighbors_;
     ParticleContacts particle_contacts_;
     WallContacts wall_contacts_;
+    exec::Room room_;  ///< for build_lists()
     bool walls_move_ = false;
     FluidOnParticles const* fluid_ = nullptr;
     exec::Buffer<FluidLoad> loads_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/DemSystem.hpp"
+#include "search/PairSprings.hpp"
 
 namespace gimdem
 {
@@ -51,6 +52,16 @@ void keep_rows(exec::Buffer<std::int32_t>& offsets, exec::Buffer<std::int32_t>& 
     if (rolls) rolling.resize(written);
 }
 
+/// Keeps the springs of the pairs among those `kept`, and nothing else of the list.
+void keep_springs(NeighborList& list, std::span<std::int32_t const> kept, std::span<std::int32_t const> new_number)
+{
+    SpringsOfPairs springs{tangential_of_pairs(list), rolling_of_pairs(list), {}};
+    keep_touching(list, springs);
+    keep_rows(list.row_offsets, list.second, springs.tangential, springs.rolling, kept, list.particle_count(),
+              [&](std::int32_t j) { return new_number[static_cast<std::size_t>(j)]; });
+    put_springs(springs, list);
+}
+
 }  // namespace
 
 void DemSystem::insert(ParticleState const& more)
@@ -72,6 +83,7 @@ void DemSystem::insert(ParticleState const& more)
         if (has_impulses) impulses_[i] = {};
     }
     add_rows(neighbors_.row_offsets, before, after);
+    neighbors_.pools.resize(static_cast<std::size_t>(neighbors_.block_count()));
     add_rows(wall_contacts_.pairs().offsets, before, after);
     rebuild();
 }
@@ -97,8 +109,7 @@ std::int64_t DemSystem::remove(std::span<std::int32_t const> cause, std::vector<
     std::int64_t const after = std::ssize(kept);
     if (after == before) return 0;
 
-    keep_rows(neighbors_.row_offsets, neighbors_.second, neighbors_.displacement, neighbors_.rolling_spring, kept,
-              before, [&](std::int32_t j) { return new_number[static_cast<std::size_t>(j)]; });
+    if (neighbors_.row_offsets.size() == before + 1) keep_springs(neighbors_, kept, new_number);
     WallPairs& walls = wall_contacts_.pairs();
     keep_rows(walls.offsets, walls.plane, walls.displacement, walls.rolling_spring, kept, before,
               [](std::int32_t plane) { return plane; });
@@ -121,12 +132,16 @@ void DemSystem::resume(Vec3 const& wall_force)
     for (std::int64_t const id : particles_.id.host())
         next_id_ = std::max(next_id_, id + 1);
     if (particles_.count() == 0) return rebuild();
-    exec::Buffer<Quad> now = neighbors_.built_at;
+    exec::Buffer<Quad> now = particles_.position, force = particles_.force, torque = particles_.torque;
+    for (std::int64_t i = 0; i < particles_.count(); ++i)
+        particles_.position[i].set_xyz(neighbors_.built_at[i].vec());
+    auto const order = build_lists();
+    permute(execution_, now, order, particles_.position);
+    permute(execution_, force, order, particles_.force);
+    permute(execution_, torque, order, particles_.torque);
     swap(particles_.position, now);
-    auto const order = search_.build(particles_, neighbors_);
-    wall_contacts_.build(particles_, search_.skin(), order);
-    permute(execution_, now, order);
-    swap(particles_.position, now);
+    swap(particles_.force, force);
+    swap(particles_.torque, torque);
     wall_contacts_.set_total_force(wall_force);
     if (on_permutation_) on_permutation_(order);
 }
@@ -139,7 +154,7 @@ void DemSystem::rebuild()
     neighbors_.built_at.resize(0);
     if (particles_.count() == 0)
     {
-        neighbors_.first.resize(0);
+        neighbors_.second.resize(0);
         neighbors_.row_offsets.resize(0);
         wall_contacts_.pairs().offsets.resize(0);
         loads_.resize(0);

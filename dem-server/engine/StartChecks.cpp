@@ -11,6 +11,7 @@
 #include "core/Error.hpp"
 #include "particles/SizeDistribution.hpp"
 #include "search/NeighborList.hpp"
+#include "search/PairSprings.hpp"
 
 namespace gimdem
 {
@@ -102,9 +103,10 @@ void check_overlaps(exec::Execution execution, ParticleState const& particles, D
     NeighborList list;
     NeighborSearch(execution, 0, domain).build(sorted, list);
     PeriodicSpace const space = domain.space();
+    auto const first = first_of_pairs(list);
     for (std::int64_t k = 0; k < list.pair_count(); ++k)
     {
-        Quad const a = sorted.position[list.first[k]];
+        Quad const a = sorted.position[first[k]];
         Quad const b = sorted.position[list.second[k]];
         Vec3 between = a.xyz() - b.xyz();
         space.shorten(between.x(), between.y(), between.z());
@@ -114,7 +116,7 @@ void check_overlaps(exec::Execution execution, ParticleState const& particles, D
             fmt::format("particles {} and {} overlap by {:.3g} m at ({:.6g}, {:.6g}, {:.6g}) m from the start "
                         "(they would fly apart); increase [[insertion]] spacing, reduce jitter or correct the "
                         "file",
-                        sorted.id[list.first[k]], sorted.id[list.second[k]], overlap, a.x, a.y, a.z));
+                        sorted.id[first[k]], sorted.id[list.second[k]], overlap, a.x, a.y, a.z));
     }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/Error.hpp"
+#include "search/PairSprings.hpp"
 
 namespace gimdem
 {
@@ -25,6 +26,18 @@ void put(std::vector<T> const& values, exec::Buffer<T>& to)
 {
     to.resize(std::ssize(values));
     std::copy(values.begin(), values.end(), to.host().begin());
+}
+
+std::span<double const> numbers(exec::Buffer<Constant3> const& vectors)
+{
+    if (vectors.size() == 0) return {};
+    return {&vectors.host().data()->x, 3 * static_cast<std::size_t>(vectors.size())};
+}
+
+void put(std::vector<double> const& values, exec::Buffer<Constant3>& to)
+{
+    to.resize(std::ssize(values) / 3);
+    if (!values.empty()) std::copy(values.begin(), values.end(), &to.host().data()->x);
 }
 
 void put(std::vector<double> const& values, exec::Buffer<Quad>& to)
@@ -53,15 +66,15 @@ struct Springs
     }
 };
 
-void append(Quad const& q, std::vector<double>& to)
+void append(Spring const& s, std::vector<double>& to)
 {
-    to.insert(to.end(), {q.x, q.y, q.z, q.w});
+    to.insert(to.end(), {s.x, s.y, s.z, 0});
 }
 
-bool has_bits(Quad const& q)
+bool has_bits(Spring const& s)
 {
-    constexpr Quad none{0, 0, 0, 0};
-    return std::memcmp(&q, &none, sizeof q) != 0;
+    constexpr Spring none{0, 0, 0};
+    return std::memcmp(&s, &none, sizeof s) != 0;
 }
 
 /// The pairs of the list whose springs are not zero.
@@ -75,11 +88,14 @@ Springs stretched(NeighborList const& pairs)
         if (i + 1 == pairs.row_offsets.size()) break;
         for (std::int32_t k = pairs.row_offsets[i]; k < pairs.row_offsets[i + 1]; ++k)
         {
-            bool const rolled = springs.rolls && has_bits(pairs.rolling_spring[k]);
-            if (!rolled && !has_bits(pairs.displacement[k])) continue;
+            SpringPool::Slot const slot = pairs.spring[k];
+            if (slot == SpringPool::none) continue;
+            SpringPool const& pool = pairs.pools[static_cast<std::size_t>(i / NeighborList::block)];
+            bool const rolled = springs.rolls && has_bits(pool.rolling()[slot]);
+            if (!rolled && !has_bits(pool.tangential()[slot])) continue;
             springs.partner.push_back(pairs.second[k]);
-            append(pairs.displacement[k], springs.spring);
-            if (springs.rolls) append(pairs.rolling_spring[k], springs.rolling);
+            append(pool.tangential()[slot], springs.spring);
+            if (springs.rolls) append(pool.rolling()[slot], springs.rolling);
         }
     }
     return springs;
@@ -101,7 +117,7 @@ void add_state(output::SnapshotWriter& writer, DemSystem const& system)
     writer.add("wall_force", std::span(wall_force.data(), 3), 3);
     writer.add("material", p.material.host());
     writer.add("id", p.id.host());
-    writer.add("listed_at", numbers(system.neighbors().built_at), 4);
+    writer.add("listed_at", numbers(system.neighbors().built_at), 3);
     writer.add("pair_offsets", pairs.offsets);
     writer.add("pair_second", pairs.partner);
     writer.add("pair_spring", pairs.spring, 4);
@@ -129,7 +145,9 @@ void take_state(output::SnapshotReader const& reader, int materials, DemSystem& 
         return values;
     };
     auto const position = quads("position"), velocity = quads("velocity"), spin = quads("angular_velocity"),
-               force = quads("force"), torque = quads("torque"), listed_at = quads("listed_at");
+               force = quads("force"), torque = quads("torque");
+    auto const listed_at = reader.doubles("listed_at");
+    fits &= listed_at.size() == 3 * n;
     auto const wall_force = reader.doubles("wall_force"), wall_times = reader.doubles("wall_times");
     auto const material = reader.int32s("material");
     bool const rolls = system.neighbors().carries_rolling;
@@ -160,8 +178,10 @@ void take_state(output::SnapshotReader const& reader, int materials, DemSystem& 
     put(listed_at, pairs.built_at);
     put(of_pairs.offsets, pairs.row_offsets);
     put(of_pairs.partner, pairs.second);
-    put(of_pairs.spring, pairs.displacement);
-    put(of_pairs.rolling, pairs.rolling_spring);
+    SpringsOfPairs springs_of_pairs;
+    put(of_pairs.spring, springs_of_pairs.tangential);
+    put(of_pairs.rolling, springs_of_pairs.rolling);
+    put_springs(springs_of_pairs, pairs);
     WallPairs& walls = system.walls().pairs();
     put(of_walls.offsets, walls.offsets);
     put(of_walls.partner, walls.plane);

@@ -11,7 +11,6 @@
 #include <type_traits>
 
 #include "exec/HostDevice.hpp"
-#include "exec/Octet.hpp"
 
 namespace gimdem::exec
 {
@@ -56,6 +55,17 @@ GIMDEM_HD inline bool greater(double a, double b)
 GIMDEM_HD inline double root(double x)
 {
     return std::sqrt(x);
+}
+/// 1 / sqrt x.
+GIMDEM_HD inline double per_root(double x)
+{
+    return 1 / std::sqrt(x);
+}
+/// sqrt(a / b) for a, b >= 0, and 1 where both are 0.
+GIMDEM_HD inline double root_of_ratio(double a, double b)
+{
+    constexpr double tiny = 1e-300;
+    return std::sqrt((a + tiny) / (b + tiny));
 }
 GIMDEM_HD inline double exponential(double x)
 {

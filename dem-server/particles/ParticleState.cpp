@@ -23,13 +23,11 @@ void ParticleState::resize(std::int64_t count)
 
 void ParticleState::permute(exec::Execution const& execution, std::span<std::int32_t const> order)
 {
-    gimdem::permute(execution, position, order);
-    gimdem::permute(execution, velocity, order);
-    gimdem::permute(execution, angular_velocity, order);
-    gimdem::permute(execution, force, order);
-    gimdem::permute(execution, torque, order);
-    gimdem::permute(execution, material, order);
-    gimdem::permute(execution, id, order);
+    for (exec::Buffer<Quad>* const values : {&position, &velocity, &angular_velocity})
+        gimdem::permute(execution, *values, order, force);
+    gimdem::permute(execution, material, order, torque);
+    gimdem::permute(execution, id, order, torque);
+    force.resize(count());
 }
 
 double ParticleState::volume(std::int64_t i) const

@@ -45,7 +45,7 @@ struct ParticleState
     ParticleView view();
     void resize(std::int64_t count);
 
-    /// Put the particle that was at order[i] at i.
+    /// Put the particle that was at order[i] at i. Forces and torques are to be computed anew.
     void permute(exec::Execution const& execution, std::span<std::int32_t const> order);
 
     double volume(std::int64_t i) const;  ///< [m^3]
@@ -76,6 +76,32 @@ void permute(exec::Execution const& execution, exec::Buffer<T>& values, std::spa
                    [to = permuted.view(), from = values.view(), from_place = order.data()](std::int64_t i)
                    { to[i] = from[from_place[i]]; });
     swap(values, permuted);
+}
+
+/// The same without memory of its own: the values wait in `room`, whose elements mean nothing afterwards.
+template <class T>
+void permute(exec::Execution const& execution, exec::Buffer<T>& values, std::span<std::int32_t const> order,
+             exec::Buffer<Quad>& room)
+{
+    static_assert(sizeof(T) <= sizeof(Quad));
+    auto const n = static_cast<std::int64_t>(order.size());
+    room.resize(n);
+    T* const waiting = reinterpret_cast<T*>(room.view().data);
+    exec::for_each(execution, n,
+                   [=, from = values.view(), place = order.data()](std::int64_t i) { waiting[i] = from[place[i]]; });
+    values.resize(n);
+    exec::for_each(execution, n, [=, to = values.view()](std::int64_t i) { to[i] = waiting[i]; });
+}
+
+/// Of quadruples: `room` and `values` change places.
+inline void permute(exec::Execution const& execution, exec::Buffer<Quad>& values, std::span<std::int32_t const> order,
+                    exec::Buffer<Quad>& room)
+{
+    room.resize(static_cast<std::int64_t>(order.size()));
+    exec::for_each(execution, room.size(),
+                   [to = room.view(), from = values.view(), place = order.data()](std::int64_t i)
+                   { to[i] = from[place[i]]; });
+    swap(values, room);
 }
 
 }  // namespace gimdem

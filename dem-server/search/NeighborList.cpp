@@ -3,24 +3,63 @@
 
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "exec/Reduce.hpp"
 #include "search/CandidateVisitor.hpp"
+#include "search/KeptSprings.hpp"
 #include "search/PairListKernels.hpp"
+#include "search/PairSprings.hpp"
 
 namespace gimdem
 {
+
+namespace
+{
+
+/// First particle of a pair, as the list holds it.
+struct FirstInBlock
+{
+    std::uint16_t* first;
+
+    void set(std::int32_t pair, std::int64_t i) const
+    {
+        first[pair] = static_cast<std::uint16_t>(i % NeighborList::block);
+    }
+};
+
+/// Counts the pairs of one block that cross its border, then lists the second particles of them.
+struct BorderLister
+{
+    NeighborListView list;
+    std::int32_t* second_of_slot;  ///< null: count
+
+    void operator()(std::int64_t b) const
+    {
+        auto const [begin, end] = block_of(list, b);
+        std::int32_t count = 0;
+        for (std::int32_t k = list.row_offsets[begin]; k < list.row_offsets[end]; ++k)
+        {
+            if (list.second[k] < end) continue;
+            if (second_of_slot != nullptr) second_of_slot[list.border_begin[b] + count] = list.second[k];
+            ++count;
+        }
+        if (second_of_slot == nullptr) list.border_begin[b] = count;
+    }
+};
+
+}  // namespace
 
 bool NeighborSearch::is_stale(ParticleState const& particles, NeighborList const& list) const
 {
     if (list.built_at.size() != particles.count()) return true;
     Quad const* const now = particles.position.view().data;
-    Quad const* const then = list.built_at.view().data;
+    Constant3 const* const then = list.built_at.view().data;
     double const moved = exec::maximum(
         execution_, particles.count(), 0.0,
         [=](std::int64_t i)
         {
-            double const distance = (now[i].xyz() - then[i].xyz()).squaredNorm();
+            double const distance = (now[i].xyz() - then[i].vec()).squaredNorm();
             return distance >= 0 ? distance : std::numeric_limits<double>::infinity();  // a NaN must not hide
         });
     return 4 * moved > skin_ * skin_;
@@ -29,35 +68,53 @@ bool NeighborSearch::is_stale(ParticleState const& particles, NeighborList const
 std::span<std::int32_t const> NeighborSearch::build(ParticleState& particles, NeighborList& list)
 {
     bool const has_springs = list.row_offsets.size() == particles.count() + 1;
+    // The cells take the place of the border, which is listed when they are no longer needed.
+    swap(cell_of_, list.border.by_second.members);
+    swap(by_cell_.offsets, list.border.by_second.offsets);
     sort_into_cells(particles);
-    swap(old_.second, list.second);
-    swap(old_.row_offsets, list.row_offsets);
-    swap(list.spare, list.displacement);
-    swap(old_.rolling_spring, list.rolling_spring);
+    room_.clear();
+    room_.lend(particles.force);
+    room_.lend(particles.torque);
+    room_.lend(list.border.force);
+    KeptSprings kept;
+    if (has_springs) kept.keep(execution_, list, room_);
     list_pairs(particles, list);
     if (has_springs)
-        carry_springs(list.spare, list, list.displacement);
+        kept.give(execution_, by_cell_.members.host(), list);
     else
-        list.displacement.fill({0, 0, 0, 0});
-    if (has_springs && list.carries_rolling)
-        carry_springs(old_.rolling_spring, list, list.rolling_spring);
-    else
-        list.rolling_spring.fill({0, 0, 0, 0});
-    list.built_at = particles.position;
+    {
+        list.spring.fill(SpringPool::none);
+        reset_pools(list, std::vector<std::int32_t>(static_cast<std::size_t>(list.block_count())));
+    }
+    swap(cell_of_, list.border.by_second.members);
+    swap(by_cell_.offsets, list.border.by_second.offsets);
+    list_border(list);
+    list.built_at.resize(particles.count());
+    exec::for_each(execution_, particles.count(),
+                   [to = list.built_at.view(), from = std::as_const(particles).position.view()](std::int64_t i) {
+                       to[i] = {from[i].x, from[i].y, from[i].z};
+                   });
     return by_cell_.members.host();
 }
 
 std::int64_t NeighborSearch::count_candidates(ParticleState const& particles) const
 {
+    // The cells of the last search have given their memory away: they are found again.
+    NeighborSearch again(execution_, skin_, domain_);
+    again.levels_ = levels_;
+    again.cell_of_.resize(particles.count());
+    for (std::int64_t i = 0; i < particles.count(); ++i)
+        again.cell_of_[i] = levels_.cell_of(particles.position[i]);
+    exec::group_by_key(execution_, again.cell_of_.host(), levels_.cell_count, again.by_cell_);
     std::int64_t count = 0;
-    with_candidates(particles,
-                    [&](auto const& candidates, auto const&)
-                    {
-                        count = exec::reduce(
-                            execution_, particles.count(), std::int64_t{0},
-                            [=](std::int64_t i) { return candidates.count(i); },
-                            [](std::int64_t a, std::int64_t b) { return a + b; });
-                    });
+    again.with_candidates(particles,
+                          [&](auto const& candidates, auto const&)
+                          {
+                              count = exec::reduce(
+                                  execution_, particles.count(), std::int64_t{0},
+                                  [=](std::int64_t i) { return candidates.count(i); },
+                                  [](std::int64_t a, std::int64_t b) { return a + b; });
+                          });
     return count;
 }
 
@@ -77,7 +134,7 @@ void NeighborSearch::sort_into_cells(ParticleState& particles)
                    [=, levels = levels_](std::int64_t i) { cell_of[i] = levels.cell_of(position[i]); });
     exec::group_by_key(execution_, cell_of_.host(), levels_.cell_count, by_cell_);
     particles.permute(execution_, by_cell_.members.host());
-    permute(execution_, cell_of_, by_cell_.members.host());
+    permute(execution_, cell_of_, by_cell_.members.host(), particles.torque);
 }
 
 /// Calls work(candidates, near) with the visitor and the test that fit the domain.
@@ -108,50 +165,33 @@ void NeighborSearch::fill(std::int64_t n, Candidates const& candidates, Near con
     exec::for_each(execution_, n, PairCounter<Candidates, Near>{candidates, near, list.row_offsets.view().data});
     std::int64_t const pairs = exec::exclusive_scan(execution_, list.row_offsets.host());
 
-    list.first.resize(pairs);
+    list.first_in_block.resize(pairs);
     list.second.resize(pairs);
-    list.displacement.resize(pairs);
-    list.rolling_spring.resize(list.carries_rolling ? pairs : 0);
-    list.touches.resize(pairs);
-    list.touches.fill(1);
+    list.spring.resize(pairs);
     exec::for_each(execution_, n,
-                   PairFiller<Candidates, Near>{candidates, near, list.row_offsets.view().data, list.first.view().data,
-                                                list.second.view().data});
-    list_border(list);
+                   PairFiller<Candidates, Near, FirstInBlock>{candidates,
+                                                              near,
+                                                              list.row_offsets.view().data,
+                                                              {list.first_in_block.view().data},
+                                                              list.second.view().data});
 }
 
 void NeighborSearch::list_border(NeighborList& list)
 {
     BorderPairs& border = list.border;
-    auto const pairs = static_cast<std::int32_t>(list.pair_count());
-    border.slot.resize(pairs);
-    std::int32_t slots = 0;
-    for (std::int32_t k = 0; k < pairs; ++k)
-    {
-        bool const crosses = list.first[k] / NeighborList::block != list.second[k] / NeighborList::block;
-        border.slot[k] = crosses ? slots : -1;
-        slots += crosses;
-    }
-    border.pairs.resize(slots);
-    border_seconds_.resize(slots);
-    for (std::int32_t k = 0; k < pairs; ++k)
-        if (std::int32_t const slot = border.slot[k]; slot >= 0)
-        {
-            border.pairs[slot] = k;
-            border_seconds_[slot] = list.second[k];
-        }
-    exec::group_by_key(execution_, border_seconds_.host(), list.row_offsets.size() - 1, border.by_second);
-    for (std::int32_t& member : border.by_second.members.host())
-        member = border.pairs[member];
-}
+    std::int64_t const blocks = list.block_count();
+    border.begin.resize(blocks + 1);
+    BorderLister lister{list.view(), nullptr};
+    exec::for_each(execution_, blocks, lister);
+    std::int64_t const slots = exec::exclusive_scan(border.begin.host());
 
-void NeighborSearch::carry_springs(exec::Buffer<Quad> const& old_spring, NeighborList const& list,
-                                   exec::Buffer<Quad>& spring)
-{
-    exec::for_each(execution_, list.pair_count(),
-                   SpringCarrier{list.first.view().data, list.second.view().data, by_cell_.members.view().data,
-                                 old_.row_offsets.view().data, old_.second.view().data, old_spring.view().data,
-                                 spring.view().data});
+    lister.second_of_slot = room_.take<std::int32_t>(slots);
+    exec::for_each(execution_, blocks, lister);
+    exec::group_by_key(execution_, {lister.second_of_slot, static_cast<std::size_t>(slots)}, list.particle_count(),
+                       border.by_second);
+    // Last: until here it was lent as room.
+    border.force.resize(slots);
+    border.force.fill({{0, 0, 0}, {0, 0, 0}});
 }
 
 }  // namespace gimdem

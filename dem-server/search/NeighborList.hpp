@@ -4,69 +4,82 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "exec/Buffer.hpp"
 #include "exec/Execution.hpp"
+#include "exec/Room.hpp"
 #include "exec/Sort.hpp"
 #include "particles/ParticleState.hpp"
 #include "search/Domain.hpp"
 #include "search/SizeLevels.hpp"
+#include "search/SpringPool.hpp"
 
 namespace gimdem
 {
 
-/// The pairs, each once, in rising (first, second); and the same by second member, for sums without atomics.
+/// What a pair across a border does to its second particle.
+struct BorderForce
+{
+    Constant3 force;   ///< [N]
+    Constant3 torque;  ///< [N m]
+};
+
 /// Pairs whose second particle is in a later block than the first one: each has a slot, numbered along the list.
 struct BorderPairs
 {
-    exec::Buffer<std::int32_t> slot;   ///< shape=(n_pairs,), -1 for a pair within a block
-    exec::Buffer<std::int32_t> pairs;  ///< shape=(n_slots,)
-    exec::Groups by_second;            ///< border pairs in which a particle is second
+    exec::Buffer<std::int32_t> begin;  ///< shape=(n_blocks + 1,): slots of the pairs that begin in a block
+    exec::Groups by_second;            ///< slots of the pairs in which a particle is second
+    exec::Buffer<BorderForce> force;   ///< shape=(n_slots,): of the last sum, zero where the pair does not touch
 };
 
 /// What kernels see of the list.
 struct NeighborListView
 {
-    std::int32_t const* first;
+    std::uint16_t const* first_in_block;
     std::int32_t const* second;
     std::int32_t const* row_offsets;
-    std::int32_t const* border_slot;
+    std::int32_t* border_begin;
     std::int32_t const* border_offsets;
-    std::int32_t const* border_pairs;
-    Quad* displacement;
-    Quad* rolling_spring;  ///< null where no law has such a spring
-    std::uint8_t* touches;
+    std::int32_t const* border_slots;
+    SpringPool::Slot* spring;
+    SpringPool* pools;
+    BorderForce* border_force;
+    std::int64_t particle_count;
 };
 
+/// The pairs, each once, in rising (first, second). A pair has springs while it touches, in the pool of the block of
+/// its first particle, theory.md (D.76).
 struct NeighborList
 {
     static constexpr std::int64_t block = 1024;  ///< particles that are worked on together
 
-    exec::Buffer<std::int32_t> first;        ///< shape=(n_pairs,), particle i of the pair
-    exec::Buffer<std::int32_t> second;       ///< shape=(n_pairs,), particle j > i
-    exec::Buffer<std::int32_t> row_offsets;  ///< shape=(n_particles + 1,): pairs of i are [row_offsets i, i + 1)
+    exec::Buffer<std::uint16_t> first_in_block;  ///< shape=(n_pairs,), particle i of the pair, less that of its block
+    exec::Buffer<std::int32_t> second;           ///< shape=(n_pairs,), particle j > i
+    exec::Buffer<std::int32_t> row_offsets;      ///< shape=(n_particles + 1,): pairs of i are [row_offsets i, i + 1)
     BorderPairs border;
-    exec::Buffer<Quad> displacement;     ///< shape=(n_pairs,), tangential spring of the pair [m]
-    exec::Buffer<Quad> rolling_spring;   ///< shape=(n_pairs,), torque on the first [N m]; see carries_rolling
-    exec::Buffer<std::uint8_t> touches;  ///< shape=(n_pairs,), 1 where the pair touched when it was last looked at
-    exec::Buffer<Quad> spare;            ///< means nothing between calls: room for whoever works on the list
-    exec::Buffer<Quad> built_at;         ///< shape=(n_particles,), positions when the list was built [m]
+    exec::Buffer<SpringPool::Slot> spring;  ///< shape=(n_pairs,), slot of its springs; none where it does not touch
+    std::vector<SpringPool> pools;          ///< shape=(n_blocks,)
+    exec::Buffer<Constant3> built_at;       ///< shape=(n_particles,), positions when the list was built [m]
 
-    bool carries_rolling = false;  ///< whether rolling_spring is kept; otherwise it is empty
+    bool carries_rolling = false;  ///< whether pairs have rolling springs as well
 
-    std::int64_t pair_count() const { return first.size(); }
-    std::int64_t block_count() const { return (row_offsets.size() + block - 2) / block; }
+    std::int64_t pair_count() const { return second.size(); }
+    std::int64_t particle_count() const { return row_offsets.size() > 0 ? row_offsets.size() - 1 : 0; }
+    std::int64_t block_count() const { return (particle_count() + block - 1) / block; }
     NeighborListView view()
     {
-        return {first.view().data,
+        return {first_in_block.view().data,
                 second.view().data,
                 row_offsets.view().data,
-                border.slot.view().data,
+                border.begin.view().data,
                 border.by_second.offsets.view().data,
                 border.by_second.members.view().data,
-                displacement.view().data,
-                rolling_spring.view().data,
-                touches.view().data};
+                spring.view().data,
+                pools.data(),
+                border.force.view().data,
+                particle_count()};
     }
 };
 
@@ -84,9 +97,10 @@ public:
     /// True when the list may miss a contact: a particle moved more than skin / 2 since it was built.
     bool is_stale(ParticleState const& particles, NeighborList const& list) const;
 
-    /// Moves the particles into the periodic box, sorts them by level and cell, lists the pairs and carries the
-    /// tangential springs along. Returns the permutation: the particle now at i was at order[i]. Throws UserError for a
-    /// position that is not finite and for a periodic box that is too small.
+    /// Moves the particles into the periodic box, sorts them by level and cell, lists the pairs and carries the springs
+    /// along. Forces and torques, which are to be computed anew, lend their memory and mean nothing afterwards. Returns
+    /// the permutation: the particle now at i was at order[i]. Throws UserError for a position that is not finite and
+    /// for a periodic box that is too small.
     std::span<std::int32_t const> build(ParticleState& particles, NeighborList& list);
 
     /// How many pairs build() has looked at to find those it listed: the cost of a search, whatever the machine.
@@ -96,7 +110,6 @@ private:
     void sort_into_cells(ParticleState& particles);
     void list_border(NeighborList& list);
     void list_pairs(ParticleState const& particles, NeighborList& list);
-    void carry_springs(exec::Buffer<Quad> const& old_spring, NeighborList const& list, exec::Buffer<Quad>& spring);
     template <class Work>
     void with_candidates(ParticleState const& particles, Work&& work) const;
     template <class Candidates, class Near>
@@ -108,8 +121,7 @@ private:
     SizeLevels levels_;
     exec::Buffer<std::int32_t> cell_of_;
     exec::Groups by_cell_;
-    NeighborList old_;
-    exec::Buffer<std::int32_t> border_seconds_;
+    exec::Room room_;
 };
 
 }  // namespace gimdem

@@ -42,13 +42,21 @@ struct PairCounter
     }
 };
 
-template <class Candidates, class Near>
+/// Where the first particles of pairs go: numbers of their own.
+struct FirstAsNumber
+{
+    std::int32_t* first;
+
+    GIMDEM_HD void set(std::int32_t pair, std::int64_t i) const { first[pair] = static_cast<std::int32_t>(i); }
+};
+
+template <class Candidates, class Near, class First = FirstAsNumber>
 struct PairFiller
 {
     Candidates visit_candidates;
     Near near;
     std::int32_t const* offsets;
-    std::int32_t* first;
+    First first;
     std::int32_t* second;
 
     GIMDEM_HD void operator()(std::int64_t i) const
@@ -58,7 +66,7 @@ struct PairFiller
                          [&](std::int64_t j)
                          {
                              if (!near(i, j)) return;
-                             first[k] = static_cast<std::int32_t>(i);
+                             first.set(k, i);
                              second[k++] = static_cast<std::int32_t>(j);
                          });
     }

@@ -8,6 +8,7 @@
 #include "contact/ContactModel.hpp"
 #include "exec/Buffer.hpp"
 #include "exec/Execution.hpp"
+#include "exec/Room.hpp"
 #include "particles/Materials.hpp"
 #include "particles/ParticleState.hpp"
 #include "walls/WallGeometry.hpp"
@@ -46,7 +47,8 @@ public:
     bool is_stale(double skin) const;
 
     /// Lists the pairs closer than radius + skin [m]. `order` is the permutation since the last list (empty: none):
-    /// springs move along.
+    /// springs move along. `room`: to work in.
+    void build(ParticleState const& particles, double skin, std::span<std::int32_t const> order, exec::Room& room);
     void build(ParticleState const& particles, double skin, std::span<std::int32_t const> order);
 
     /// Adds the walls' forces and torques; advances the tangential springs by dt [s].
@@ -75,8 +77,6 @@ private:
     NearbyWalls nearby() const { return {walls_.view(), poses_.view().data}; }
     WallPairsView pairs_view();
     void remember_build(ParticleState const& particles, double skin);
-    void carry_springs(std::span<std::int32_t const> order, exec::Buffer<Quad> const& old_spring,
-                       exec::Buffer<Quad>& spring);
 
     exec::Execution execution_;
     ContactModel model_;
@@ -86,10 +86,9 @@ private:
     exec::Buffer<WallPose> poses_, built_at_;        ///< of each body, now and when the list was built
     Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();  ///< around all particles and what they reached then [m]
     exec::Buffer<std::int32_t> first_pair_;          ///< of each body: row of its material in the table of pairs
-    WallPairs pairs_, old_;
-    exec::Buffer<std::uint64_t> seen_;  ///< what the first look at the walls found, for the second
-    exec::Buffer<Touch> touches_;       ///< room for the touches of particles with many pairs
-    exec::Buffer<Quad> force_;          ///< of each pair [N]; w: 1 where it touches, or where it may hold a spring
+    WallPairs pairs_;
+    exec::Buffer<Touch> touches_;  ///< room for the touches of particles with many pairs
+    exec::Buffer<Quad> force_;     ///< of each pair [N]; w: 1 where it touches, or where it may hold a spring
     Quad total_force_{0, 0, 0, 0};
 };
 

@@ -55,6 +55,41 @@ private:
     }
 };
 
+/// What of the list before is needed for the springs, while a new one takes its place.
+struct OldWallPairs
+{
+    std::int32_t* offsets;
+    std::int32_t* plane;
+    Quad* displacement;
+    Quad* rolling_spring;
+
+    OldWallPairs(WallPairs const& pairs, exec::Room& room)
+        : offsets(copy(pairs.offsets, room)),
+          plane(copy(pairs.plane, room)),
+          displacement(copy(pairs.displacement, room)),
+          rolling_spring(copy(pairs.rolling_spring, room))
+    {
+    }
+
+    /// Fills one kind of spring of the new list. order: the permutation since the old one, empty: none.
+    void carry(exec::Execution const& execution, std::span<std::int32_t const> order, WallPairs const& pairs,
+               Quad const* old_spring, exec::Buffer<Quad>& spring) const
+    {
+        exec::for_each(execution, pairs.offsets.size() - 1,
+                       WallSpringCarrier{order.empty() ? nullptr : order.data(), pairs.offsets.view().data,
+                                         pairs.plane.view().data, offsets, plane, old_spring, spring.view().data});
+    }
+
+private:
+    template <class T>
+    static T* copy(exec::Buffer<T> const& from, exec::Room& room)
+    {
+        T* const to = room.take<T>(from.size());
+        std::copy_n(from.view().data, from.size(), to);
+        return to;
+    }
+};
+
 /// Calls visit(corner) for the eight corners of a box.
 template <class Visit>
 void visit_corners(Vec3 const& low, Vec3 const& high, Visit&& visit)
@@ -134,18 +169,25 @@ private:
 
 void WallContacts::build(ParticleState const& particles, double skin, std::span<std::int32_t const> order)
 {
+    exec::Room room;
+    build(particles, skin, order, room);
+}
+
+void WallContacts::build(ParticleState const& particles, double skin, std::span<std::int32_t const> order,
+                         exec::Room& room)
+{
     std::int64_t const n = particles.count();
     bool const has_springs = pairs_.offsets.size() == n + 1;
-    swap(old_.offsets, pairs_.offsets);
-    swap(old_.plane, pairs_.plane);
-    swap(old_.displacement, pairs_.displacement);
-    swap(old_.rolling_spring, pairs_.rolling_spring);
+    OldWallPairs const old(pairs_, room);
 
     pairs_.offsets.resize(n + 1);
-    seen_.resize(n);
-    PairLister lister{
-        nearby(), particles.position.view().data, skin, pairs_.offsets.view().data, seen_.view().data, nullptr,
-        nullptr};
+    PairLister lister{nearby(),
+                      particles.position.view().data,
+                      skin,
+                      pairs_.offsets.view().data,
+                      room.take<std::uint64_t>(n),
+                      nullptr,
+                      nullptr};
     exec::for_each(execution_, n, lister);
     std::int32_t most = 0;
     for (std::int64_t i = 0; i < n; ++i)
@@ -169,23 +211,14 @@ void WallContacts::build(ParticleState const& particles, double skin, std::span<
                                  pairs_.particle.view().data, pairs_.row.view().data, pairs_.alone.view().data});
 
     if (has_springs)
-        carry_springs(order, old_.displacement, pairs_.displacement);
+        old.carry(execution_, order, pairs_, old.displacement, pairs_.displacement);
     else
         pairs_.displacement.fill({0, 0, 0, 0});
     if (has_springs && model_.has_rolling_spring())
-        carry_springs(order, old_.rolling_spring, pairs_.rolling_spring);
+        old.carry(execution_, order, pairs_, old.rolling_spring, pairs_.rolling_spring);
     else
         pairs_.rolling_spring.fill({0, 0, 0, 0});
     remember_build(particles, skin);
-}
-
-void WallContacts::carry_springs(std::span<std::int32_t const> order, exec::Buffer<Quad> const& old_spring,
-                                 exec::Buffer<Quad>& spring)
-{
-    exec::for_each(execution_, pairs_.offsets.size() - 1,
-                   WallSpringCarrier{order.empty() ? nullptr : order.data(), pairs_.offsets.view().data,
-                                     pairs_.plane.view().data, old_.offsets.view().data, old_.plane.view().data,
-                                     old_spring.view().data, spring.view().data});
 }
 
 void WallContacts::remember_build(ParticleState const& particles, double skin)

@@ -2,7 +2,7 @@
 /// Time and memory of a DEM step of a bed of 1.545 mm beads in the box of cases/wachem-bed, no fluid.
 ///
 ///   benchmark_dem [--data FILE] [--write FILE] [--steps N] [--warm-up N] [--threads N] [--device cpu|cuda] [--dt S]
-///                 [--skin K] [--count N] [--box X Y Z]
+///                 [--precision double|mixed] [--skin K] [--count N] [--box X Y Z]
 ///
 /// FILE: particles in the format of LAMMPS (id type diameter density x y z, then Velocities), so that other programs
 /// can start from the same state; without it, a lattice that falls. Prints figures.
@@ -10,6 +10,7 @@
 #include <malloc.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <sstream>
@@ -23,11 +24,34 @@
 namespace
 {
 
+/// Memory that the program holds at present, what it gave back excluded [B].
+std::size_t memory_in_use()
+{
+    struct mallinfo2 const all = mallinfo2();
+    return all.uordblks + all.hblkhd;  // small blocks, and those with pages of their own
+}
+
+std::size_t peak = 0;  ///< of memory_in_use(), as far as arrays grew [B]
+
+}  // namespace
+
+/// In place of the C library's: whatever holds much memory is a Buffer, and gets it here.
+extern "C" void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept
+{
+    void* const memory = memalign(alignment, size);
+#pragma omp critical
+    peak = std::max(peak, memory_in_use());
+    return memory;
+}
+
+namespace
+{
+
 using namespace gimdem;
 
 struct Options
 {
-    std::string data, write, device = "cpu";
+    std::string data, write, device = "cpu", precision = "double";
     int steps = 1000, warm_up = 500, threads = 1;
     double dt = 2e-5, skin = 0.3;
     std::int64_t count = 17'563;
@@ -109,13 +133,6 @@ void write_data(std::string const& path, ParticleState const& p, std::vector<dou
     if (!file) throw std::runtime_error("cannot write " + path);
 }
 
-/// Memory that the program holds at present, what it gave back excluded [B].
-std::size_t memory_in_use()
-{
-    struct mallinfo2 const all = mallinfo2();
-    return all.uordblks + all.hblkhd;  // small blocks, and those with pages of their own
-}
-
 double kinetic_energy(ParticleState const& p)
 {
     double sum = 0;
@@ -135,13 +152,14 @@ void run(Options const& options)
     Case settings = test::bead_case(0.9, 0.3);
     settings.dem.gravity = {0, 0, -9.81};
     settings.dem.skin = options.skin;
+    settings.dem.precision = options.precision;
     std::string const backend = options.device == "cuda" ? "cuda" : options.threads == 1 ? "serial" : "openmp";
     exec::Execution const execution = exec::make_execution(backend, options.threads);
     Materials const materials(settings);
     PolyMesh const mesh(test::BoxMesh::make({1, 1, 1}, {options.box[0], options.box[1], options.box[2]}));
     WallGeometry const walls(mesh, {"bottom"}, 0.9e-3);
     settings.insertion = {lattice(options.box, options.count)};
-    std::size_t const before = memory_in_use();
+    std::size_t const before = peak = memory_in_use();
     DemSystem system(
         settings, execution, materials, walls,
         options.data.empty() ? insert_particles(settings, materials) : test::particles_of(read_data(options.data)));
@@ -167,6 +185,7 @@ void run(Options const& options)
     fmt::print("figure: dem_list_rebuilds = {} [1]\n", system.rebuilds() - rebuilds);
     fmt::print("figure: dem_pairs_per_particle = {:.4g} [1]\n", double(system.neighbors().pair_count()) / n);
     fmt::print("figure: bytes_per_particle = {:.4g} [B]\n", bytes / n);
+    fmt::print("figure: bytes_per_particle_peak = {:.4g} [B]\n", static_cast<double>(peak - before) / n);
     fmt::print("figure: dem_kinetic_energy = {:.6g} [J]\n", kinetic_energy(system.particles()));
 }
 
@@ -182,6 +201,7 @@ int main(int argc, char** argv)
     app.add_option("--warm-up", options.warm_up, "steps before");
     app.add_option("--threads", options.threads, "threads");
     app.add_option("--device", options.device, "where the particles are")->check(CLI::IsMember({"cpu", "cuda"}));
+    app.add_option("--precision", options.precision, "of the contact laws")->check(CLI::IsMember({"double", "mixed"}));
     app.add_option("--dt", options.dt, "time step [s]");
     app.add_option("--skin", options.skin, "of the neighbour list, in radii");
     app.add_option("--count", options.count, "particles of the lattice");

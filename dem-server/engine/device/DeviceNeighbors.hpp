@@ -14,6 +14,7 @@
 #include "search/CandidateVisitor.hpp"
 #include "search/NeighborList.hpp"
 #include "search/PairListKernels.hpp"
+#include "search/PairSprings.hpp"
 
 namespace gimdem
 {
@@ -121,7 +122,7 @@ public:
     /// too: their sizes decide about the grids.
     void upload(ParticleState const& particles, NeighborList const& list);
 
-    /// The host may look after wait().
+    /// Waits for it.
     void download(NeighborList& list) const;
 
     // Whether a particle moved more than half the skin since the list was built: who moves particles tests them.
@@ -189,26 +190,38 @@ void DeviceNeighbors<Device>::upload(ParticleState const& particles, NeighborLis
     if (!has_springs_) return;
     row_offsets_.upload(device_, list.row_offsets);
     second_.upload(device_, list.second);
-    displacement_.upload(device_, list.displacement);
-    if (carries_rolling_) rolling_spring_.upload(device_, list.rolling_spring);
+    SpringsOfPairs const springs{tangential_of_pairs(list), rolling_of_pairs(list), touches_of_pairs(list)};
+    exec::Buffer<std::int32_t> const first = first_of_pairs(list);
+    exec::Buffer<Quad> built_at(list.built_at.size());
+    for (std::int64_t i = 0; i < built_at.size(); ++i)
+        built_at[i] = Quad::of(list.built_at[i].vec(), 0);
+    displacement_.upload(device_, springs.tangential);
+    if (carries_rolling_) rolling_spring_.upload(device_, springs.rolling);
     stale_.zero(device_);
-    if (!is_built_ || n == 0) return;
-    first_.upload(device_, list.first);
-    touches_.upload(device_, list.touches);
-    built_at_.upload(device_, list.built_at);
+    if (!is_built_ || n == 0) return device_.wait();
+    first_.upload(device_, first);
+    touches_.upload(device_, springs.touches);
+    built_at_.upload(device_, built_at);
+    device_.wait();  // before what they come from goes
     sort_by_second();
 }
 
 template <class Device>
 void DeviceNeighbors<Device>::download(NeighborList& list) const
 {
+    SpringsOfPairs springs;
+    exec::Buffer<Quad> built_at;
     row_offsets_.download(device_, list.row_offsets);
-    first_.download(device_, list.first);
     second_.download(device_, list.second);
-    displacement_.download(device_, list.displacement);
-    if (carries_rolling_) rolling_spring_.download(device_, list.rolling_spring);
-    touches_.download(device_, list.touches);
-    built_at_.download(device_, list.built_at);
+    displacement_.download(device_, springs.tangential);
+    if (carries_rolling_) rolling_spring_.download(device_, springs.rolling);
+    if (is_built_) touches_.download(device_, springs.touches);
+    built_at_.download(device_, built_at);
+    device_.wait();
+    put_springs(springs, list);
+    list.built_at.resize(built_at.size());
+    for (std::int64_t i = 0; i < built_at.size(); ++i)
+        list.built_at[i] = {built_at[i].x, built_at[i].y, built_at[i].z};
 }
 
 template <class Device>
@@ -285,8 +298,9 @@ void DeviceNeighbors<Device>::list_pairs(DeviceParticles<Device> const& particle
     with_candidates(particles,
                     [&]<class Candidates, class Near>(Candidates const& candidates, Near const& near)
                     {
-                        device_.for_each(n, PairFiller<Candidates, Near>{candidates, near, row_offsets_.data(),
-                                                                         first_.data(), second_.data()});
+                        device_.for_each(n,
+                                         PairFiller<Candidates, Near>{
+                                             candidates, near, row_offsets_.data(), {first_.data()}, second_.data()});
                     });
     sort_by_second();
 }

@@ -7,9 +7,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "SphereBox.hpp"
+#include "search/PairSprings.hpp"
 
 namespace gimdem::test
 {
@@ -49,11 +51,12 @@ struct PeersBed
         return out;
     }
 
-    static std::unique_ptr<SphereBox> make(exec::Execution execution = serial)
+    static std::unique_ptr<SphereBox> make(exec::Execution execution = serial, std::string const& precision = "double")
     {
         Case settings = bead_case(0.9, 0.3);
         settings.dem.gravity = {0, 0, -9.81};
         settings.dem.skin = 0.3;
+        settings.dem.precision = precision;
         return std::make_unique<SphereBox>(settings,
                                            Box{{width, depth, height}, {"left", "right", "front", "back", "bottom"}},
                                            lattice(), std::vector<int>{}, execution);
@@ -87,9 +90,10 @@ inline BedFigures figures_of(SphereBox const& bed)
     f.kinetic_energy = kinetic_energy(p);
     auto const n = static_cast<double>(p.count());
     std::int64_t contacts = 0;
+    auto const first = first_of_pairs(list);
     for (std::int64_t k = 0; k < list.pair_count(); ++k)
     {
-        Quad const a = p.position[list.first[k]], b = p.position[list.second[k]];
+        Quad const a = p.position[first[k]], b = p.position[list.second[k]];
         double const overlap = a.w + b.w - (a.xyz() - b.xyz()).norm();
         if (overlap <= 0) continue;
         ++contacts;

@@ -40,7 +40,8 @@ void compare(exec::Execution const& device, Case const& settings, int along = 6,
 
     EXPECT_EQ(host.system.rebuilds(), there.system.rebuilds());
     std::int64_t touching = 0;
-    for (auto const touches : host.seen().neighbors().touches.host())
+    auto const of_pairs = touches_of_pairs(host.seen().neighbors());
+    for (auto const touches : of_pairs.host())
         touching += touches;
     EXPECT_GT(touching, 20);
     expect_same_within(host.seen(), there.seen(), rounding);

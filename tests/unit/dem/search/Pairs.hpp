@@ -8,9 +8,11 @@
 #include <cmath>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "particles/ParticleState.hpp"
 #include "search/NeighborList.hpp"
+#include "search/PairSprings.hpp"
 
 namespace gimdem::test
 {
@@ -42,9 +44,10 @@ inline Pairs by_brute_force(ParticleState const& p, double skin, Domain const& d
 inline Pairs ids_of(ParticleState const& p, NeighborList const& list)
 {
     Pairs pairs;
+    auto const first = first_of_pairs(list);
     for (std::int64_t k = 0; k < list.pair_count(); ++k)
     {
-        auto const a = p.id[list.first[k]], b = p.id[list.second[k]];
+        auto const a = p.id[first[k]], b = p.id[list.second[k]];
         pairs.emplace(std::min(a, b), std::max(a, b));
     }
     return pairs;
@@ -60,13 +63,20 @@ inline void expect_list(ParticleState const& p, NeighborList const& list, Pairs 
     for (std::int64_t i = 0; i < p.count(); ++i)
         for (std::int32_t k = list.row_offsets[i]; k < list.row_offsets[i + 1]; ++k)
         {
-            EXPECT_EQ(list.first[k], i);
+            EXPECT_EQ(list.first_in_block[k], i % NeighborList::block);
             EXPECT_LT(k == list.row_offsets[i] ? i : list.second[k - 1], list.second[k]);
         }
+    // Slots are numbered along the list.
+    std::vector<std::int32_t> second_of_slot;
+    for (std::int64_t i = 0; i < p.count(); ++i)
+        for (std::int32_t k = list.row_offsets[i]; k < list.row_offsets[i + 1]; ++k)
+            if (i / NeighborList::block != list.second[k] / NeighborList::block)
+                second_of_slot.push_back(list.second[k]);
     auto const& by_second = list.border.by_second;
+    ASSERT_EQ(by_second.members.size(), std::ssize(second_of_slot));
     for (std::int64_t j = 0; j < p.count(); ++j)
         for (std::int32_t m = by_second.offsets[j]; m < by_second.offsets[j + 1]; ++m)
-            EXPECT_EQ(list.second[by_second.members[m]], j);
+            EXPECT_EQ(second_of_slot[static_cast<std::size_t>(by_second.members[m])], j);
 }
 
 }  // namespace gimdem::test
