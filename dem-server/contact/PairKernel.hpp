@@ -20,10 +20,11 @@
 namespace gimdem
 {
 
-/// Numbers of pairs of one block that touch, picked from the list until there are enough to be worth a visit.
+/// Pairs of one block that touch, picked from the list until there are enough to be worth a visit.
 struct TouchingPairs
 {
     static constexpr int most = 256;
+    static constexpr int room = most + 2 * exec::octet;
 
     TouchingPairs(NeighborListView const& list, std::int64_t block)
         : begin(static_cast<std::int32_t>(block * NeighborList::block)),
@@ -36,15 +37,20 @@ struct TouchingPairs
     SpringPool& springs;       ///< of the block
     std::int32_t border_slot;  ///< of the next pair that crosses the border
     int count = 0;
-    std::int32_t pair[most + 2 * exec::octet];
-    std::int32_t border[most + 2 * exec::octet];  ///< slot of each pair, -1 where it stays within the block
+    std::int32_t first[room], second[room];
+    std::int32_t border[room];      ///< slot of each pair, -1 where it stays within the block
+    SpringPool::Slot spring[room];  ///< slot of each pair
 
     bool is_full() const { return count >= most; }
     /// Fills the last octet with copies of the last pair.
     void pad()
     {
         for (int n = count; n % exec::octet != 0; ++n)
-            pair[n] = pair[count - 1];
+        {
+            first[n] = first[count - 1];
+            second[n] = second[count - 1];
+            spring[n] = spring[count - 1];
+        }
     }
 };
 
@@ -114,31 +120,37 @@ private:
         space.shorten(dx, dy, dz);
         Octet const reach = a.w + b.w;
         exec::OctetMask const touching = exec::greater(reach * reach, dx * dx + dy * dy + dz * dz);
+        std::int32_t const next_block = found.begin + static_cast<std::int32_t>(NeighborList::block);
+        std::int32_t border_slot = found.border_slot;
+        int at = found.count;
         for (int n = 0; n < count; ++n)
         {
-            bool const crosses = j[n] >= found.begin + NeighborList::block;
+            bool const crosses = j[n] >= next_block;
             bool const now = touching.lanes[n] != 0;
-            SpringPool::Slot& slot = list.spring[k + n];
-            if (now != (slot != SpringPool::none))
-                change_touch(slot, crosses ? border + found.border_slot : nullptr, found.springs);
-            found.pair[found.count] = k + n;
-            found.border[found.count] = crosses ? found.border_slot : -1;
-            found.border_slot += crosses;
-            found.count += slot != SpringPool::none;
+            SpringPool::Slot slot = list.spring[k + n];
+            if (now != (slot != SpringPool::none)) [[unlikely]]
+                list.spring[k + n] = slot =
+                    changed_touch(slot, crosses ? border + border_slot : nullptr, found.springs);
+            found.first[at] = i[n];
+            found.second[at] = j[n];
+            found.border[at] = crosses ? border_slot : -1;
+            found.spring[at] = slot;
+            border_slot += crosses;
+            at += slot != SpringPool::none;
         }
+        found.border_slot = border_slot;
+        found.count = at;
     }
 
-    /// A contact begins or ends: rarely, so that what looks at pairs is not burdened with it.
-    [[gnu::noinline]] static void change_touch(SpringPool::Slot& slot, BorderForce* border, SpringPool& springs)
+    /// The slot of a pair of which a contact begins or ends: rarely, so that what looks at pairs is not burdened with
+    /// it.
+    [[gnu::noinline]] static SpringPool::Slot changed_touch(SpringPool::Slot slot, BorderForce* border,
+                                                            SpringPool& springs)
     {
-        if (slot == SpringPool::none)
-        {
-            slot = springs.take();
-            return;
-        }
+        if (slot == SpringPool::none) return springs.take();
         springs.give_back(slot);
-        slot = SpringPool::none;
         if (border != nullptr) *border = {{0, 0, 0}, {0, 0, 0}};
+        return SpringPool::none;
     }
 
     void compute(TouchingPairs& found) const
@@ -152,17 +164,10 @@ private:
     /// Works on `count` pairs from `from` on, at most eight.
     GIMDEM_FLATTEN void compute(TouchingPairs const& found, int from, int count) const
     {
-        std::int32_t const* const pair = found.pair + from;
-        std::int32_t const* const border_slot = found.border + from;
-        std::int32_t i[exec::octet], j[exec::octet];
-        for (int n = 0; n < exec::octet; ++n)
-        {
-            i[n] = found.begin + list.first_in_block[pair[n]];
-            j[n] = list.second[pair[n]];
-        }
+        std::int32_t const *const i = found.first + from, *const j = found.second + from;
         OctetOfParticles const a(particles, i), b(particles, j);
         ContactGeometry<Octet> const contact = meet<Law, one_size, Octet>(a, b, space);
-        SpringsOfOctet const stored(found.springs, list.spring, pair);
+        SpringsOfOctet const stored(found.springs, found.spring + from);
         ContactSprings<Octet> springs{stored.tangential()};
         if constexpr (Law::has_rolling_spring) springs.rolling = stored.rolling();
         ContactForce<Octet> const result = apply_law(contact, i, j, springs);
@@ -185,7 +190,7 @@ private:
         {
             particles.force[i[n]] = particles.force[i[n]] + force[n];
             particles.torque[i[n]] = particles.torque[i[n]] + torque_a[n];
-            give(border_slot[n], j[n], force[n], one_size ? torque_a[n] : torque_b[n]);
+            give(found.border[from + n], j[n], force[n], one_size ? torque_a[n] : torque_b[n]);
         }
     }
 
