@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures of a run: what the server summed up, and time means over the fluidised bed.
 
-    tools/analyse_run.py RUN_DIR [--from 0.4] [--to 1.0] [--compare RUN_DIR2]
+    tools/analyse_run.py RUN_DIR [--from T] [--to T] [--compare RUN_DIR2]
 
 Prints a line `figure: name = value [unit]` each; with --compare, both runs side by side.
 """
@@ -17,16 +17,16 @@ import numpy as np
 from console import UserError
 from results import BedSeries, Figure, read_json, read_summary
 
-FLUIDISED = (0.4, 1.0)  # [s]
+START = 0.4  # of a run is left out of means: the bed has to come to its steady motion first
 NOT_AVERAGED = ("time", "void_fraction_max", "void_fraction_clips", "momentum_imbalance", "volume_imbalance",
                 "continuity_error", "pressure_iterations")  # the worst or the sum counts: the server's figures have it
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("run", metavar="RUN_DIR", type=Path, help="folder of a run")
-    parser.add_argument("--from", dest="begin", metavar="T", type=float, default=FLUIDISED[0],
-                        help="means from [s] (0.4)")
-    parser.add_argument("--to", dest="end", metavar="T", type=float, default=FLUIDISED[1], help="means to [s] (1.0)")
+    parser.add_argument("--from", dest="begin", metavar="T", type=float, 
+                        help="means from [s] (0.4 of the time up to --to)")
+    parser.add_argument("--to", dest="end", metavar="T", type=float, help="means to [s] (the end)")
     parser.add_argument("--compare", metavar="RUN_DIR2", type=Path, help="a second run, shown beside the first")
 
 
@@ -51,7 +51,7 @@ def show_figures(options: argparse.Namespace) -> int:
     return 0
 
 
-def figures_of(folder: Path, begin: float = FLUIDISED[0], end: float = FLUIDISED[1]) -> list[Figure]:
+def figures_of(folder: Path, begin: float | None = None, end: float | None = None) -> list[Figure]:
     """All figures of a run; those that the server gives come first and win."""
     series = BedSeries(folder / "bed.csv")
     figures = read_summary(folder)
@@ -60,9 +60,13 @@ def figures_of(folder: Path, begin: float = FLUIDISED[0], end: float = FLUIDISED
     return figures + force_balance({figure.name: figure.value for figure in figures})
 
 
-def time_means(series: BedSeries, begin: float, end: float) -> list[Figure]:
+def time_means(series: BedSeries, begin: float | None = None, end: float | None = None) -> list[Figure]:
     """Mean and standard deviation of each column over [begin, end]; none where the run did not get there."""
     time = series["time"]
+    end = time[-1] if end is None and len(time) else end
+    begin = START * end if begin is None and end is not None else begin
+    if begin is None or end is None:
+        return []
     # Times are sums of steps: let rounding not decide about the ends.
     inside = (time >= begin - 1e-9) & (time <= end + 1e-9)
     if inside.sum() < 2:

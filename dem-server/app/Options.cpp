@@ -40,6 +40,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
     app.add_option("--device", options.device,
                    "where the particles are computed: cuda, cpu, or auto: cuda if it is there")
         ->check(CLI::IsMember({"auto", "cuda", "cpu"}));
+    app.add_option("--precision", options.precision, "of the contact laws: double or mixed")
+        ->check(CLI::IsMember({"double", "mixed"}));
     app.add_option("--restart", options.restart, "checkpoint to go on from");
     try
     {
@@ -65,6 +67,7 @@ Case read_case_with(Options const& options)
         settings.run.until = *options.until;
     }
     if (options.threads) settings.dem.threads = *options.threads;
+    if (options.precision) settings.dem.precision = *options.precision;
     if (options.device) settings.dem.backend = backend_on(*options.device, settings.dem.backend);
     return settings;
 }

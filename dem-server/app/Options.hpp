@@ -16,7 +16,7 @@ struct Options
     std::filesystem::path case_file;
     std::filesystem::path run_folder = ".";  ///< results go here
     bool describe = false;                   ///< print the case as JSON and stop
-    std::optional<std::string> endpoint, schedule, device;
+    std::optional<std::string> endpoint, schedule, device, precision;
     std::optional<double> until;
     std::optional<int> threads;
     std::optional<std::filesystem::path> restart;  ///< checkpoint to go on from

@@ -32,24 +32,26 @@ struct LawTable
     }
 };
 
-/// Constants of eight contacts of whatever materials: row[n] is the place in the table of contact n.
-template <class Law>
-typename Law::template Constants<exec::Octet> octet_of(typename Law::template Constants<double> const* table,
-                                                       std::int32_t const* row)
+/// Constants of contacts of whatever materials, one in each lane of a Real: row[n] is the place in the table of contact
+/// n.
+template <class Law, class Real>
+typename Law::template Constants<Real> lanes_of(typename Law::template Constants<double> const* table,
+                                                std::int32_t const* row)
 {
     using One = typename Law::template Constants<double>;
-    using Eight = typename Law::template Constants<exec::Octet>;
+    using All = typename Law::template Constants<Real>;
+    using Number = typename Real::Number;
     constexpr int count = sizeof(One) / sizeof(double);
-    static_assert(sizeof(Eight) == count * sizeof(exec::Octet), "constants of a law are Reals, one after the other");
+    static_assert(sizeof(All) == count * sizeof(Real), "constants of a law are Reals, one after the other");
     double one[count];
-    alignas(exec::Octet) double lanes[count][exec::octet];
-    for (int n = 0; n < exec::octet; ++n)
+    alignas(Real) Number lanes[count][Real::lanes];
+    for (int n = 0; n < Real::lanes; ++n)
     {
         std::memcpy(one, &table[row[n]], sizeof one);
         for (int k = 0; k < count; ++k)
-            lanes[k][n] = one[k];
+            lanes[k][n] = static_cast<Number>(one[k]);
     }
-    Eight out;
+    All out;
     std::memcpy(static_cast<void*>(&out), lanes, sizeof out);
     return out;
 }

@@ -28,19 +28,20 @@ struct HertzMindlin
         Real const normal_stiffness = 2 * constants.young_eff * a;
         Real const tangential_stiffness = constants.stiffness_ratio * normal_stiffness;
         Real const normal_dashpot = constants.damping * root(Real(normal_stiffness * contact.mass_eff));
-        Real const tangential_dashpot = constants.root_stiffness_ratio * normal_dashpot;
+        Real const tangential_dashpot = constants.tangential_share * normal_dashpot;
 
         // Normal: Hertz spring and dashpot, (D.6), (D.7).
         Real const v_n = contact.velocity.dot(contact.normal);
         Real const secant = 2.0 / 3.0 * normal_stiffness;
-        Real const normal_force = secant * contact.overlap - normal_dashpot * v_n;
+        Real const normal_force =
+            no_less(minus_product(Real(secant * contact.overlap), normal_dashpot, v_n), constants.least_force);
 
         // Tangential, (D.9)-(D.12).
-        Vector3<Real> const v_t = contact.velocity - v_n * contact.normal;
+        Vector3<Real> const v_t = contact.velocity.minus(v_n, contact.normal);
         TangentialSpring<Real> const rub{tangential_stiffness, tangential_dashpot,
                                          constants.friction * magnitude(normal_force)};
         Vector3<Real> const tangential = rub(contact.normal, v_t, dt, displacement);
-        return {normal_force * contact.normal + tangential, tangential, normal_force, secant};
+        return {tangential.plus(normal_force, contact.normal), tangential, normal_force, secant};
     }
 };
 

@@ -8,8 +8,10 @@
 #include <type_traits>
 
 #include "contact/ContactGeometry.hpp"
+#include "contact/Restitution.hpp"
 #include "contact/TangentialSpring.hpp"
 #include "core/Case.hpp"
+#include "particles/Materials.hpp"
 
 namespace gimdem
 {
@@ -17,10 +19,12 @@ namespace gimdem
 template <class Real>
 struct LinearConstants
 {
-    Real stiffness;        ///< k_n [N/m]
-    Real damping;          ///< 2 |beta|, (D.8), (D.30) [1]
-    Real stiffness_ratio;  ///< k_t / k_n [1]
-    Real friction;         ///< Coulomb coefficient [1]
+    Real stiffness;         ///< k_n [N/m]
+    Real damping;           ///< 2 |beta|, (D.8), (D.30) [1]
+    Real stiffness_ratio;   ///< k_t / k_n [1]
+    Real friction;          ///< Coulomb coefficient [1]
+    Real tangential_share;  ///< eta_t / eta_n: 1/2, 0 without a tangential dashpot [1]
+    Real least_force;       ///< below which the normal force does not fall [N]: 0, or far below any
 };
 
 struct LinearSpringDashpot
@@ -32,11 +36,14 @@ struct LinearSpringDashpot
     static LinearConstants<double> constants(MaterialSettings const&, MaterialSettings const&,
                                              ContactSettings const& pair)
     {
-        double const log_e = std::log(pair.restitution);
+        double const beta = pair.limit_damping ? damping_ratio_without_attraction(pair.restitution, Stiffening::linear)
+                                               : damping_ratio(pair.restitution);
         return {.stiffness = pair.normal_stiffness,
-                .damping = 2 * std::abs(log_e) / std::sqrt(log_e * log_e + std::numbers::pi * std::numbers::pi),
+                .damping = 2 * beta,
                 .stiffness_ratio = pair.tangential_stiffness_ratio,
-                .friction = pair.friction};
+                .friction = pair.friction,
+                .tangential_share = pair.tangential_damping ? 0.5 : 0,
+                .least_force = least_normal_force(pair)};
     }
 
     template <class Real, class Given>
@@ -48,14 +55,15 @@ struct LinearSpringDashpot
         Real const stiffness = in_every_lane<Real>(constants.stiffness);
         Real const dashpot = constants.damping * root(Real(stiffness * contact.mass_eff));
         Real const v_n = contact.velocity.dot(contact.normal);
-        Real const normal_force = stiffness * contact.overlap - dashpot * v_n;
+        Real const normal_force =
+            no_less(minus_product(Real(stiffness * contact.overlap), dashpot, v_n), constants.least_force);
 
         // Tangential, (D.32), (D.9)-(D.12).
-        Vector3<Real> const v_t = contact.velocity - v_n * contact.normal;
-        TangentialSpring<Real> const rub{constants.stiffness_ratio * stiffness, 0.5 * dashpot,
+        Vector3<Real> const v_t = contact.velocity.minus(v_n, contact.normal);
+        TangentialSpring<Real> const rub{constants.stiffness_ratio * stiffness, constants.tangential_share * dashpot,
                                          constants.friction * magnitude(normal_force)};
         Vector3<Real> const tangential = rub(contact.normal, v_t, dt, displacement);
-        return {normal_force * contact.normal + tangential, tangential, normal_force, stiffness};
+        return {tangential.plus(normal_force, contact.normal), tangential, normal_force, stiffness};
     }
 
     /// How long a contact without damping lasts [s], (D.31). stiffness [N/m], mass_eff [kg].

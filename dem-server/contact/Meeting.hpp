@@ -19,53 +19,77 @@ struct MovingSphere
     Real radius, inverse_mass, inverse_inertia;  ///< [m], [1/kg], [1/(kg m^2)]
 };
 
-/// A number that is the same in every lane.
-GIMDEM_HD inline double any_lane(double x)
-{
-    return x;
-}
+/// Two spheres that touch.
 template <class Real>
-double any_lane(Eigen::ArrayBase<Real> const& x)
+struct Encounter
 {
-    return x[0];
-}
+    Vector3<Real> between;          ///< centre of a - centre of b [m]
+    Real square;                    ///< its square [m^2]
+    Real closeness;                 ///< (r_a + r_b)^2 - square [m^2]; only where Real is of single precision
+    Vector3<Real> velocity;         ///< of a relative to b [m/s]
+    Vector3<Real> spin_a, spin_b;   ///< [rad/s]; spheres of one size that do not resist rolling: their sum, and nothing
+    Real radius_a, radius_b;        ///< [m]
+    Real inverse_mass;              ///< 1/m_a + 1/m_b [1/kg]
+    Real inverse_inertia;           ///< 1/I_a + 1/I_b [1/(kg m^2)]
+};
 
-/// Geometry of the contact of a with b, theory.md (D.1), (D.2). `one_size`: all spheres have one radius and one mass.
-template <class Law, bool one_size, class Real, class Space>
-GIMDEM_HD ContactGeometry<Real> meet(MovingSphere<Real> const& a, MovingSphere<Real> const& b, Space const& space)
+template <class Real, class Space>
+GIMDEM_HD Encounter<Real> encounter(MovingSphere<Real> const& a, MovingSphere<Real> const& b, Space const& space)
 {
-    using namespace exec;
     Vector3<Real> between = a.position - b.position;
     space.shorten(between.x, between.y, between.z);
-    Real const reach = a.radius + b.radius;
-    Real const distance = root(Real(between.dot(between)));
+    return {.between = between,
+            .square = between.dot(between),
+            .closeness = {},
+            .velocity = a.velocity - b.velocity,
+            .spin_a = a.spin,
+            .spin_b = b.spin,
+            .radius_a = a.radius,
+            .radius_b = b.radius,
+            .inverse_mass = a.inverse_mass + b.inverse_mass,
+            .inverse_inertia = a.inverse_inertia + b.inverse_inertia};
+}
+
+/// r_a + r_b - distance [m]. In single precision the difference of two lengths would have lost the digits of a small
+/// overlap; it comes from the difference of their squares, taken in double, (D.42).
+template <class Real>
+GIMDEM_HD Real overlap_of(Encounter<Real> const& met, Real const& reach, Real const& per_distance)
+{
+    using namespace exec;
+    if constexpr (is_single<Real>)
+        return met.closeness / plus_product(reach, met.square, per_distance);
+    else
+        return minus_product(reach, met.square, per_distance);
+}
+
+/// Geometry of a contact, theory.md (D.1), (D.2). `one_size`: all spheres have one radius.
+template <class Law, bool one_size, class Real>
+GIMDEM_HD ContactGeometry<Real> meet(Encounter<Real> const& met)
+{
+    using namespace exec;
     // Two centres in one place have no normal; any direction parts them.
-    auto const apart = greater(distance, broadcast<Real>(0));
+    auto const apart = greater(met.square, broadcast<Real>(0));
     Real const one = broadcast<Real>(1);
-    Real const per_distance = one / choose(apart, distance, one);
-    Vector3<Real> normal = per_distance * between;
+    Real const per_distance = per_root(choose(apart, met.square, one));
+    Vector3<Real> normal = per_distance * met.between;
     normal.z = choose(apart, normal.z, one);
-    Real const overlap = reach - distance;
-    Vector3<Real> const spin = Real(a.radius - overlap / 2) * a.spin + Real(b.radius - overlap / 2) * b.spin;
+    Real const reach = met.radius_a + met.radius_b;
+    Real const overlap = overlap_of(met, reach, per_distance);
+    Real const half = overlap / 2;
+    Vector3<Real> spin;
+    if constexpr (one_size && !Law::rolls)
+        spin = Real(met.radius_a - half) * met.spin_a;
+    else
+        spin = (Real(met.radius_a - half) * met.spin_a).plus(Real(met.radius_b - half), met.spin_b);
     ContactGeometry<Real> contact{.normal = normal,
                                   .overlap = overlap,
-                                  .velocity = a.velocity - b.velocity - spin.cross(normal),
-                                  .radius_eff = {},
-                                  .mass_eff = {}};
-    if constexpr (one_size)
-    {
-        contact.radius_eff = broadcast<Real>(any_lane(a.radius) / 2);
-        contact.mass_eff = broadcast<Real>(0.5 / any_lane(a.inverse_mass));
-    }
-    else
-    {
-        contact.radius_eff = a.radius * b.radius / reach;
-        contact.mass_eff = 1 / (a.inverse_mass + b.inverse_mass);
-    }
+                                  .velocity = met.velocity - spin.cross(normal),
+                                  .radius_eff = one_size ? Real(met.radius_a / 2) : Real(met.radius_a * met.radius_b / reach),
+                                  .mass_eff = 1 / met.inverse_mass};
     if constexpr (Law::rolls)
     {
-        contact.spin = a.spin - b.spin;
-        contact.inverse_inertia = a.inverse_inertia + b.inverse_inertia;
+        contact.spin = met.spin_a - met.spin_b;
+        contact.inverse_inertia = met.inverse_inertia;
     }
     if constexpr (Law::coheres) contact.per_distance = per_distance;
     return contact;

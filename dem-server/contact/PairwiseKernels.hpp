@@ -20,6 +20,7 @@ struct PairwiseView
     std::int32_t const* row_offsets;     ///< pairs in which a particle is first
     std::int32_t const* second_offsets;  ///< pairs in which it is second ...
     std::int32_t const* second_pairs;    ///< ... are second_pairs[second_offsets[i]] ..., rising
+    std::int32_t const* own_seconds;     ///< where in them those with a first of its own block begin
     Quad* displacement;
     Quad* rolling_spring;  ///< null where no law has such a spring
     std::uint8_t* touches;
@@ -70,7 +71,7 @@ private:
     GIMDEM_HD void compute(std::int64_t k, std::int32_t i, std::int32_t j) const
     {
         MovingSphere<double> const a = sphere(i), b = sphere(j);
-        ContactGeometry<double> const contact = meet<Law, false>(a, b, space);
+        ContactGeometry<double> const contact = meet<Law, false>(encounter(a, b, space));
         ContactSprings<double> springs{vector3(list.displacement[k].xyz())};
         if constexpr (Law::has_rolling_spring) springs.rolling = vector3(list.rolling_spring[k].xyz());
         ContactForce<double> const result = Law::template apply<double>(
@@ -89,27 +90,44 @@ private:
     }
 };
 
+/// Finds where, among the pairs in which a particle is second, those with a first of its own block begin.
+struct OwnSeconds
+{
+    std::int32_t const* first;
+    std::int32_t const* second_offsets;
+    std::int32_t const* second_pairs;
+    std::int32_t* own_seconds;
+
+    GIMDEM_HD void operator()(std::int64_t i) const
+    {
+        std::int64_t const block_begin = i / NeighborList::block * NeighborList::block;
+        std::int32_t own = second_offsets[i];
+        while (own < second_offsets[i + 1] && first[second_pairs[own]] < block_begin)
+            ++own;
+        own_seconds[i] = own;
+    }
+};
+
 /// Sets force and torque of particle i to the sum over its pairs: first those with particles before it in its block,
-/// then those with particles after it, then those with particles of earlier blocks.
-struct PairSumKernel
+/// then those with particles after it, then those with particles of earlier blocks; last, the walls.
+template <class WallForces>
+struct ContactSumKernel
 {
     ParticleView particles;
     PairwiseView list;
     PairForce const* pair_force;
     Quad const* rolling_torque;  ///< null where the law has none
+    WallForces walls;
 
     GIMDEM_HD void operator()(std::int64_t i) const
     {
         Sum sum{{0, 0, 0, 0}, {0, 0, 0, 0}};
-        std::int32_t const begin = list.second_offsets[i], end = list.second_offsets[i + 1];
-        std::int64_t const block_begin = i / NeighborList::block * NeighborList::block;
-        std::int32_t own = begin;
-        while (own < end && list.first[list.second_pairs[own]] < block_begin)
-            ++own;
-        add_seconds(own, end, sum);
+        std::int32_t const own = list.own_seconds[i];
+        add_seconds(own, list.second_offsets[i + 1], sum);
         for (std::int32_t k = list.row_offsets[i]; k < list.row_offsets[i + 1]; ++k)
             if (list.touches[k] != 0) add_first(k, sum);
-        add_seconds(begin, own, sum);
+        add_seconds(list.second_offsets[i], own, sum);
+        walls.add_to(i, sum.force, sum.torque);
         particles.force[i] = sum.force;
         particles.torque[i] = sum.torque;
     }

@@ -26,6 +26,7 @@ public:
           model_(materials),
           material_count_(materials.count()),
           one_size_(one_size),
+          is_single_(materials.laws().precision == "mixed"),
           domain_(domain)
     {
     }
@@ -40,10 +41,15 @@ public:
     void sum_forces(ParticleState& particles, NeighborList& list, double dt);
 
 private:
+    /// The sum over the pairs of each block, by a law in Real: exec::Octet or exec::Hexadecad.
+    template <class Real>
+    void sum_pairs(ParticleState& particles, NeighborList& list, double dt);
+
     exec::Execution execution_;
     ContactModel model_;
     std::int32_t material_count_;
     bool one_size_;
+    bool is_single_;  ///< the laws are computed in single precision
     Domain domain_;
 };
 

@@ -89,7 +89,7 @@ struct ElasticPlasticSpring
         Real const spring2 = spring.dot(spring);
         auto const slips = greater(spring2, Real(limit * limit));
         Real const one = broadcast<Real>(1);
-        spring = choose(slips, Real(limit / root(Real(spring2 + tiny))), one) * spring;
+        spring = choose(slips, Real(limit * per_root(spring2)), one) * spring;
         Real const inertia = 3.5 / contact.inverse_inertia;
         Real const dashpot = 2 * constants.rolling_damping * root(Real(inertia * stiffness));
         return spring - choose(slips, broadcast<Real>(0), dashpot) * rolling;

@@ -8,17 +8,15 @@
 namespace gimdem
 {
 
-/// Keeps 0 / 0 away: an unstretched spring stays one.
-inline constexpr double tiny = 1e-300;
-
 /// Removes the part of a spring along the contact's normal, keeps its length, (D.9).
 template <class Real>
 GIMDEM_HD void turn_into_plane(Vector3<Real> const& normal, Vector3<Real>& spring)
 {
+    using namespace exec;
     Real const before = spring.dot(spring);
-    spring = spring - spring.dot(normal) * normal;
+    spring = spring.minus(spring.dot(normal), normal);
     Real const after = spring.dot(spring);
-    spring = exec::root(Real((before + tiny) / (after + tiny))) * spring;
+    spring = root_of_ratio(before, after) * spring;
 }
 
 /// The friction of one instant. Every force law sets the three and takes the force from it.
@@ -36,16 +34,16 @@ struct TangentialSpring
     {
         using namespace exec;
         turn_into_plane(normal, displacement);
-        displacement = displacement + broadcast<Real>(dt) * v_t;
+        displacement = displacement.plus(broadcast<Real>(dt), v_t);
 
         // A sliding spring is as long as friction can hold, and has no dashpot.
         Real const spring2 = stiffness * stiffness * displacement.dot(displacement);
         auto const slides = greater(spring2, Real(limit * limit));
         // Computed for all lanes: a branch that some lane of eight takes is taken too often to be foreseen.
-        Real const shortened = limit / root(Real(spring2 + tiny));
+        Real const shortened = limit * per_root(spring2);
         displacement = choose(slides, shortened, broadcast<Real>(1)) * displacement;
         Real const damping = choose(slides, broadcast<Real>(0), dashpot);
-        return Real(-stiffness) * displacement - damping * v_t;
+        return (Real(-stiffness) * displacement).minus(damping, v_t);
     }
 };
 

@@ -41,6 +41,7 @@ struct DemSettings
     int threads = 0;                            ///< 0: all cores
     std::string backend = "openmp";             ///< serial | openmp | cuda
     std::string sorting = "library";            ///< library | plain: who scans and sorts on a GPU
+    std::string precision = "double";           ///< double | mixed: of the contact laws between particles
     double skin = 0.3;                          ///< of the neighbour list, in units of the smallest radius [1]
     std::string contact_law = "hertz-mindlin";  ///< one of force_law_names
     std::string rolling_friction = "none";      ///< one of rolling_law_names
@@ -60,8 +61,10 @@ struct MaterialSettings
 struct ContactSettings
 {
     std::array<std::string, 2> pair;
-    double restitution = 1;  ///< normal, in [0.05, 1]
-    double friction = 0;     ///< Coulomb coefficient of sliding
+    double restitution = 1;          ///< normal, in [0.05, 1]
+    double friction = 0;             ///< Coulomb coefficient of sliding
+    bool limit_damping = false;      ///< the dashpot never pulls; it is tuned so that the restitution stays
+    bool tangential_damping = true;  ///< whether the tangential spring has a dashpot beside it
 
     // Only where the laws chosen in [dem] need them; check_contact_laws sees to it that they are given.
     double normal_stiffness = 0;                  ///< k_n of the linear law [N/m]

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <type_traits>
+
 #include "exec/HostDevice.hpp"
 
 namespace gimdem
@@ -42,6 +44,29 @@ GIMDEM_HD inline Quad operator*(double f, Quad const& a)
     return {f * a.x, f * a.y, f * a.z, f * a.w};
 }
 
+namespace exec
+{
+
+/// Whether a kind of number, or of many, has single precision.
+template <class Real>
+inline constexpr bool is_single = std::is_same_v<Real, float>;
+
+// Packs have their own, that round once (exec/PackMath.hpp).
+/// c + a b.
+template <class Real>
+GIMDEM_HD Real plus_product(Real const& c, Real const& a, Real const& b)
+{
+    return c + a * b;
+}
+/// c - a b.
+template <class Real>
+GIMDEM_HD Real minus_product(Real const& c, Real const& a, Real const& b)
+{
+    return c - a * b;
+}
+
+}  // namespace exec
+
 /// Three components of any kind of number: of one vector (Real = double) or of eight (Real = exec::Octet). What laws
 /// are written with that serve both.
 template <class Real>
@@ -52,10 +77,27 @@ struct Vector3
     GIMDEM_HD friend Vector3 operator+(Vector3 const& a, Vector3 const& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
     GIMDEM_HD friend Vector3 operator-(Vector3 const& a, Vector3 const& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
     GIMDEM_HD friend Vector3 operator*(Real const& f, Vector3 const& a) { return {f * a.x, f * a.y, f * a.z}; }
-    GIMDEM_HD Real dot(Vector3 const& b) const { return x * b.x + y * b.y + z * b.z; }
+    GIMDEM_HD Real dot(Vector3 const& b) const
+    {
+        using exec::plus_product;
+        return plus_product(plus_product(Real(x * b.x), y, b.y), z, b.z);
+    }
     GIMDEM_HD Vector3 cross(Vector3 const& b) const
     {
-        return {y * b.z - z * b.y, z * b.x - x * b.z, x * b.y - y * b.x};
+        using exec::minus_product;
+        return {minus_product(Real(y * b.z), z, b.y), minus_product(Real(z * b.x), x, b.z),
+                minus_product(Real(x * b.y), y, b.x)};
+    }
+    /// This + f a, and this - f a.
+    GIMDEM_HD Vector3 plus(Real const& f, Vector3 const& a) const
+    {
+        using exec::plus_product;
+        return {plus_product(x, f, a.x), plus_product(y, f, a.y), plus_product(z, f, a.z)};
+    }
+    GIMDEM_HD Vector3 minus(Real const& f, Vector3 const& a) const
+    {
+        using exec::minus_product;
+        return {minus_product(x, f, a.x), minus_product(y, f, a.y), minus_product(z, f, a.z)};
     }
 };
 

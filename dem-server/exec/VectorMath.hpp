@@ -11,7 +11,6 @@
 #include <type_traits>
 
 #include "exec/HostDevice.hpp"
-#include "exec/Octet.hpp"
 
 namespace gimdem::exec
 {
@@ -57,6 +56,17 @@ GIMDEM_HD inline double root(double x)
 {
     return std::sqrt(x);
 }
+/// 1 / sqrt x.
+GIMDEM_HD inline double per_root(double x)
+{
+    return 1 / std::sqrt(x);
+}
+/// sqrt(a / b) for a, b >= 0, and 1 where both are 0.
+GIMDEM_HD inline double root_of_ratio(double a, double b)
+{
+    constexpr double tiny = 1e-300;
+    return std::sqrt((a + tiny) / (b + tiny));
+}
 GIMDEM_HD inline double exponential(double x)
 {
     return std::exp(x);
@@ -89,6 +99,20 @@ template <class Real>
 Real logarithm(Eigen::ArrayBase<Real> const& x)
 {
     return x.log();
+}
+
+/// x, but no less than `floor`.
+template <class Real, class Floor>
+GIMDEM_HD Real no_less(Real const& x, Floor const& floor)
+{
+    Real const bound = [&]
+    {
+        if constexpr (std::is_same_v<Real, Floor>)
+            return floor;
+        else
+            return broadcast<Real>(floor);
+    }();
+    return choose(greater(x, bound), x, bound);
 }
 
 // g++ 12 takes the deliberately undefined operand of its own AVX-512 intrinsics for a mistake of ours.

@@ -4,6 +4,7 @@
 
 #include <type_traits>
 
+#include "exec/Octet.hpp"
 #include "exec/VectorMath.hpp"
 
 namespace gimdem

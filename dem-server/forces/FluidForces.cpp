@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "exec/Octet.hpp"
 #include "exec/Reduce.hpp"
 #include "forces/LoadLaw.hpp"
 
@@ -32,7 +33,7 @@ struct LoadKernel
         std::int64_t const first = o * exec::octet;
         std::int64_t const left = particles.count - first;
         int const count = left < exec::octet ? static_cast<int>(left) : exec::octet;
-        exec::Octet e = exec::Octet::Ones(), slip = exec::Octet::Zero(), diameter = exec::Octet::Ones();
+        exec::OctetArray e = exec::OctetArray::Ones(), slip = exec::OctetArray::Zero(), diameter = exec::OctetArray::Ones();
         for (int k = 0; k < count; ++k)
         {
             std::int64_t const p = first + k;
@@ -52,7 +53,7 @@ struct LoadKernel
             diameter[k] = 2 * x.w;
         }
         if (!drag) return;
-        exec::Octet const coefficients = fluid.drag_coefficient(e, slip, diameter);
+        exec::OctetArray const coefficients = fluid.drag_coefficient(e, slip, diameter);
         for (int k = 0; k < count; ++k)
             loads[first + k].fluid_velocity.w = coefficients[k];
     }

@@ -4,8 +4,7 @@
 #pragma once
 
 #include "exec/Buffer.hpp"
-#include "exec/Vector.hpp"
-#include "forces/FluidForces.hpp"
+#include "integrate/Kick.hpp"
 #include "particles/ParticleState.hpp"
 
 namespace gimdem
@@ -25,25 +24,12 @@ struct HalfKick
     GIMDEM_HD void operator()(std::int64_t i) const
     {
         Quad& v = particles.velocity[i];
-        double const inverse_mass = v.w;
         if constexpr (fluid)
-        {
-            FluidLoad const& load = loads[i];
-            double const k = load.fluid_velocity.w;
-            Quad const v_f = {load.fluid_velocity.x, load.fluid_velocity.y, load.fluid_velocity.z, 0};
-            Quad const force = particles.force[i] + load.steady;
-            Quad const kicked = v + h * (inverse_mass * force + gravity) + (h * k * inverse_mass) * v_f;
-            v = 1 / (1 + h * k * inverse_mass) * kicked;
-            v.w = inverse_mass;
-            Quad drag = (h * k) * (v_f - v);
-            drag.w = h * k;
-            impulses[i].drag = impulses[i].drag + drag;
-        }
+            v = kicked(v, particles.force[i], loads[i], gravity, h, impulses[i].drag);
         else
-            v = v + h * (inverse_mass * particles.force[i] + gravity);
-
+            v = kicked(v, particles.force[i], gravity, h);
         Quad& spin = particles.angular_velocity[i];
-        spin = spin + (h * spin.w) * particles.torque[i];
+        spin = spun(spin, particles.torque[i], h);
     }
 };
 
@@ -55,10 +41,7 @@ struct Drift
 
     GIMDEM_HD void operator()(std::int64_t i) const
     {
-        Quad& x = particles.position[i];
-        Quad step = dt * particles.velocity[i];
-        step.w = 0;
-        x = x + step;
+        particles.position[i] = drifted(particles.position[i], particles.velocity[i], dt);
     }
 };
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "exec/Vector.hpp"
+#include "exec/Octet.hpp"
 #include "exec/VectorMath.hpp"
 #include "mapping/GaussianIntegral.hpp"
 #include "mapping/GaussianTable.hpp"
@@ -65,7 +66,7 @@ public:
 private:
     void evaluate(int k, Quad const& particle, double* shared) const
     {
-        using exec::Octet;
+        using Octet = exec::OctetArray;
         auto const at = [k](double const* values) { return Eigen::Map<Octet const, Eigen::Aligned64>(values + k); };
         Octet const dx = particle.x - at(at_.x), dy = particle.y - at(at_.y), dz = particle.z - at(at_.z);
         Octet const x2 = (dx * dx + dy * dy + dz * dz) * at(scale_) - at(offset_);

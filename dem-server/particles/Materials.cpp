@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/Restitution.hpp"
 #include "core/Error.hpp"
 
 namespace gimdem
@@ -17,15 +18,21 @@ ContactConstants contact_constants(MaterialSettings const& a, MaterialSettings c
     { return 2 * (2 - m.poisson_ratio) * (1 + m.poisson_ratio) / m.young_modulus; };
     double const young_eff = 1 / (compliance(a) + compliance(b));
     double const shear_eff = 1 / (shear_compliance(a) + shear_compliance(b));
-    double const log_e = std::log(contact.restitution);
-    double const damping_ratio = log_e / std::sqrt(log_e * log_e + std::numbers::pi * std::numbers::pi);
+    double const beta = contact.limit_damping ? damping_ratio_without_attraction(contact.restitution, Stiffening::hertz)
+                                              : damping_ratio(contact.restitution);
     return {.young_eff = young_eff,
             .shear_eff = shear_eff,
-            .damping_ratio = damping_ratio,
+            .damping_ratio = beta,
             .friction = contact.friction,
-            .damping = -2 * std::sqrt(5.0 / 6.0) * damping_ratio,
+            .damping = 2 * std::sqrt(5.0 / 6.0) * beta,
             .stiffness_ratio = 4 * shear_eff / young_eff,
-            .root_stiffness_ratio = std::sqrt(4 * shear_eff / young_eff)};
+            .tangential_share = contact.tangential_damping ? std::sqrt(4 * shear_eff / young_eff) : 0,
+            .least_force = least_normal_force(contact)};
+}
+
+double least_normal_force(ContactSettings const& contact)
+{
+    return contact.limit_damping ? 0 : -1e30;
 }
 
 Materials::Materials(Case const& settings)

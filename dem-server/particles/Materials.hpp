@@ -18,19 +18,23 @@ struct ContactConstantsOf
 {
     Real young_eff;      ///< E*, (D.3) [Pa]
     Real shear_eff;      ///< G*, (D.4) [Pa]
-    Real damping_ratio;  ///< beta <= 0, (D.8) [1]
+    Real damping_ratio;  ///< |beta|, (D.8) or (D.90) [1]
     Real friction;       ///< Coulomb coefficient [1]
 
     // What the law needs of the four above, so that no contact computes it again.
-    Real damping;               ///< -2 sqrt(5/6) beta >= 0 [1]
-    Real stiffness_ratio;       ///< S_t / S_n = 4 G* / E* [1]
-    Real root_stiffness_ratio;  ///< its square root [1]
+    Real damping;           ///< 2 sqrt(5/6) |beta| [1]
+    Real stiffness_ratio;   ///< S_t / S_n = 4 G* / E* [1]
+    Real tangential_share;  ///< eta_t / eta_n: the root of that, 0 without a tangential dashpot [1]
+    Real least_force;       ///< below which the normal force does not fall [N]: 0, or far below any
 };
 using ContactConstants = ContactConstantsOf<double>;
 
 /// (D.3), (D.4), (D.8) for two materials and their contact. A wall is a material like any other.
 ContactConstants contact_constants(MaterialSettings const& a, MaterialSettings const& b,
                                    ContactSettings const& contact);
+
+/// Below which the normal force of spring and dashpot does not fall [N]: far below any, unless the damping is limited.
+double least_normal_force(ContactSettings const& contact);
 
 /// The materials of a case, and how they touch.
 class Materials

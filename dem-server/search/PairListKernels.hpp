@@ -15,7 +15,7 @@ struct Nearness
 {
     Quad const* position;
     double skin;
-    [[no_unique_address]] Space space;
+    Space space;
 
     GIMDEM_HD bool operator()(std::int64_t i, std::int64_t j) const
     {

@@ -33,6 +33,13 @@ struct ParticleWallFinder
     }
 };
 
+/// What the walls do to a particle.
+struct WallForce
+{
+    Quad force;   ///< [N]; w: how many contacts
+    Quad torque;  ///< [N m]
+};
+
 /// All walls of one particle.
 template <class Law>
 struct ParticleWallKernel
@@ -43,7 +50,7 @@ struct ParticleWallKernel
     typename Law::template Constants<double> const* constants;  ///< of all pairs of materials
     std::int32_t const* first_pair;                             ///< of each body: the row of its material
     double dt;
-    Quad* wall_force;  ///< of each near particle
+    WallForce* wall_force;  ///< of each near particle
 
     GIMDEM_HD void operator()(std::int64_t n) const
     {
@@ -60,10 +67,7 @@ struct ParticleWallKernel
             add(i, touches[t], force, torque);
             ++kept;
         }
-        wall_force[n] = Quad::of(force, kept);
-        if (kept == 0) return;
-        particles.force[i].set_xyz(particles.force[i].xyz() + force);
-        particles.torque[i].set_xyz(particles.torque[i].xyz() + torque);
+        wall_force[n] = {Quad::of(force, kept), Quad::of(torque, 0)};
     }
 
 private:
@@ -100,6 +104,23 @@ private:
         force += vec3(result.force);
         torque -= lever * normal.cross(vec3(result.tangential));
         if constexpr (Law::rolls) torque += vec3(result.rolling);
+    }
+};
+
+/// The walls' forces as the sum over all contacts of a particle wants them.
+struct WallForcesView
+{
+    std::int32_t const* near_places;  ///< shape=(n_particles + 1,): where those of a particle are, if it has any
+    WallForce const* forces;
+
+    /// Adds what the walls do to particle i.
+    GIMDEM_HD void add_to(std::int64_t i, Quad& force, Quad& torque) const
+    {
+        if (near_places[i] == near_places[i + 1]) return;
+        WallForce const wall = forces[near_places[i]];
+        if (wall.force.w == 0) return;
+        force = force + Quad{wall.force.x, wall.force.y, wall.force.z, 0};
+        torque = torque + wall.torque;
     }
 };
 

@@ -103,7 +103,7 @@ struct WallFinder
         auto const x = exec::load(position, i);
         auto const plane = exec::load(wall, in_order);
         exec::Octet const overlap = x.w - (plane.x * x.x + plane.y * x.y + plane.z * x.z - plane.w);
-        exec::OctetMask const touching = exec::greater(overlap, exec::Octet::Zero());
+        exec::OctetMask const touching = exec::greater(overlap, exec::Octet::Constant(0));
         for (int n = 0; n < count; ++n)
         {
             if (touching.lanes[n] != 0)
@@ -197,7 +197,7 @@ private:
                 all_known &= row[lane] == known;
             if (!all_known)
             {
-                eight = octet_of<Law>(constants, row);
+                eight = lanes_of<Law, Octet>(constants, row);
                 known = row[0];
                 for (int lane = 1; lane < exec::octet; ++lane)
                     if (row[lane] != known) known = -1;
@@ -233,8 +233,8 @@ private:
         Vector3<Octet> turn = Octet(a.radius - contact.overlap / 2) * result.tangential.cross(contact.normal);
         if constexpr (Law::rolls) turn = turn + result.rolling;
         Quad pushed[exec::octet], turned[exec::octet];
-        exec::store({result.force.x, result.force.y, result.force.z, Octet::Zero()}, pushed);
-        exec::store({turn.x, turn.y, turn.z, Octet::Zero()}, turned);
+        exec::store({result.force.x, result.force.y, result.force.z, Octet::Constant(0)}, pushed);
+        exec::store({turn.x, turn.y, turn.z, Octet::Constant(0)}, turned);
         int const count = found.count - first < exec::octet ? found.count - first : exec::octet;
         for (int n = 0; n < count; ++n)
         {
@@ -259,7 +259,7 @@ private:
             contact.spin = a.spin;
             contact.inverse_inertia = a.inverse_inertia;
         }
-        if constexpr (Law::coheres) contact.per_distance = Octet::Zero();
+        if constexpr (Law::coheres) contact.per_distance = Octet::Constant(0);
         if (!found.moves) return contact;
         auto const velocity = exec::load(found.velocity + first, WallFinder::in_order);
         contact.velocity = contact.velocity - Vector3<Octet>{velocity.x, velocity.y, velocity.z};
@@ -273,7 +273,7 @@ private:
 
     static void store(Vector3<Octet> const& from, Quad* values, std::int32_t const* place)
     {
-        exec::store({from.x, from.y, from.z, Octet::Zero()}, values, place);
+        exec::store({from.x, from.y, from.z, Octet::Constant(0)}, values, place);
     }
 };
 

@@ -2,7 +2,7 @@
 /// Time and memory of a DEM step of a bed of 1.545 mm beads in the box of cases/wachem-bed, no fluid.
 ///
 ///   benchmark_dem [--data FILE] [--write FILE] [--steps N] [--warm-up N] [--threads N] [--device cpu|cuda] [--dt S]
-///                 [--skin K] [--count N] [--box X Y Z]
+///                 [--precision double|mixed] [--skin K] [--count N] [--box X Y Z]
 ///
 /// FILE: particles in the format of LAMMPS (id type diameter density x y z, then Velocities), so that other programs
 /// can start from the same state; without it, a lattice that falls. Prints figures.
@@ -51,7 +51,7 @@ using namespace gimdem;
 
 struct Options
 {
-    std::string data, write, device = "cpu";
+    std::string data, write, device = "cpu", precision = "double";
     int steps = 1000, warm_up = 500, threads = 1;
     double dt = 2e-5, skin = 0.3;
     std::int64_t count = 17'563;
@@ -152,6 +152,7 @@ void run(Options const& options)
     Case settings = test::bead_case(0.9, 0.3);
     settings.dem.gravity = {0, 0, -9.81};
     settings.dem.skin = options.skin;
+    settings.dem.precision = options.precision;
     std::string const backend = options.device == "cuda" ? "cuda" : options.threads == 1 ? "serial" : "openmp";
     exec::Execution const execution = exec::make_execution(backend, options.threads);
     Materials const materials(settings);
@@ -200,6 +201,7 @@ int main(int argc, char** argv)
     app.add_option("--warm-up", options.warm_up, "steps before");
     app.add_option("--threads", options.threads, "threads");
     app.add_option("--device", options.device, "where the particles are")->check(CLI::IsMember({"cpu", "cuda"}));
+    app.add_option("--precision", options.precision, "of the contact laws")->check(CLI::IsMember({"double", "mixed"}));
     app.add_option("--dt", options.dt, "time step [s]");
     app.add_option("--skin", options.skin, "of the neighbour list, in radii");
     app.add_option("--count", options.count, "particles of the lattice");

@@ -20,6 +20,7 @@ struct WallImpact
     double normal_speed;    ///< towards the plane [m/s]
     double tangential = 0;  ///< along the plane [m/s]
     double spin = 0;        ///< about y; radius * spin = tangential: rolling [rad/s]
+    bool limit_damping = false, tangential_damping = true;
 };
 
 /// How it leaves, and what the contact was like.
@@ -41,7 +42,12 @@ inline Rebound rebound_of(WallImpact const& impact, int steps = 2000)
     double const r = impact.radius;
     double const dt =
         HertzImpact::on_wall(impact.bead, impact.wall, r, impact.normal_speed).duration / static_cast<double>(steps);
-    Case const settings = impact_case(impact.bead, impact.wall, impact.restitution, impact.friction);
+    Case settings = impact_case(impact.bead, impact.wall, impact.restitution, impact.friction);
+    for (ContactSettings& contact : settings.contacts)
+    {
+        contact.limit_damping = impact.limit_damping;
+        contact.tangential_damping = impact.tangential_damping;
+    }
     SphereBox scene(
         settings, {{40 * r, 40 * r, 40 * r}, {"bottom"}},
         {{{10 * r, 20 * r, r * (1 + 1e-9)}, r, {impact.tangential, 0, -impact.normal_speed}, {0, impact.spin, 0}}});

@@ -6,6 +6,7 @@
 
 #include "contact/ContactModel.hpp"
 #include "engine/device/DeviceNeighbors.hpp"
+#include "walls/PairwiseWallKernel.hpp"
 
 namespace gimdem
 {
@@ -47,16 +48,19 @@ private:
     exec::DeviceArray<Device, double> constants_;
 };
 
-/// Its one function is instantiated in a file of its own: it holds a kernel for every choice of laws.
+/// Its functions are instantiated in a file of its own: they hold a kernel for every choice of laws.
 template <class Device>
 class DeviceContacts
 {
 public:
     DeviceContacts(Device& device, Domain const& domain) : device_(device), domain_(domain) {}
 
-    /// Sets force and torque of every particle to the sum over its contacts; advances the springs by dt [s].
-    void sum_forces(DeviceLaws<Device> const& laws, DeviceParticles<Device> const& particles,
-                    DeviceNeighbors<Device> const& neighbors, double dt);
+    /// Finds the force of every pair; advances the springs by dt [s]. Nothing happens where the list is stale.
+    void find_forces(DeviceLaws<Device> const& laws, DeviceParticles<Device> const& particles,
+                     DeviceNeighbors<Device> const& neighbors, double dt);
+    /// Sets force and torque of every particle to the sum over its contacts, unless the list is stale.
+    void sum_forces(DeviceParticles<Device> const& particles, DeviceNeighbors<Device> const& neighbors,
+                    WallForcesView const& walls);
 
 private:
     Device& device_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "engine/device/DeviceFluid.hpp"
 #include "engine/device/DeviceWalls.hpp"
@@ -45,6 +46,7 @@ public:
 
     void upload(HostState const& state) override
     {
+        owed_ = 0;  // a state that comes back was finished when it went
         particles_.upload(device_, state.particles, state.impulses);
         neighbors_.upload(state.particles, state.neighbors);
         walls_.upload(state.walls, state.particles.count());
@@ -53,6 +55,7 @@ public:
     }
     void download(HostState const& state) override
     {
+        finish_step();
         particles_.download(device_, state.particles, state.impulses);
         neighbors_.download(state.neighbors);
         walls_.download(state.walls);
@@ -61,24 +64,24 @@ public:
 
     bool prepare() override
     {
-        if (!update_neighbors()) return false;
-        sum_contact_forces(0);
-        return true;
+        finish_step();
+        if (neighbors_.is_built())
+            device_.for_each(particles_.count(), StaleKernel{particles_.position.data(), neighbors_.stale_test()});
+        return sum_contact_forces(0);
     }
 
     bool step(double dt) override
     {
-        half_kick(dt / 2);
-        device_.for_each(particles_.count(), Drift{particles_.view(), dt});
-        if (!update_neighbors()) return false;
-        sum_contact_forces(dt);
+        move(dt);
+        if (!sum_contact_forces(dt)) return false;
         if (with_fluid_) fluid_.apply(particles_);
-        half_kick(dt / 2);
+        owed_ = dt / 2;
         return true;
     }
 
     void begin_coupling_step(bool fluid) override
     {
+        finish_step();
         with_fluid_ = fluid;
         particles_.impulses.resize(device_, fluid ? particles_.count() : 0);
         particles_.impulses.zero(device_);
@@ -88,10 +91,11 @@ public:
     Vec3 steady_fluid_force() override { return fluid_.steady_force(); }
     void take_impulses_of_one_second() override
     {
+        finish_step();
         device_.for_each(particles_.count(),
                          DragOfOneSecond{fluid_.loads(), particles_.velocity.data(), particles_.impulses.data()});
     }
-    Vec3 wall_impulse() override { return walls_.impulse(); }
+    Vec3 wall_impulse() override { return finish_step(), walls_.impulse(); }
     std::int64_t rebuilds() const override { return rebuilds_; }
 
     void set_fluid(FluidScene const& scene, ParticleState const& particles) override
@@ -104,15 +108,15 @@ public:
     void set_void_fraction(exec::Buffer<double> const& values) override { fluid_.set_void_fraction(values); }
     std::int64_t clipped() override { return fluid_.clipped(); }
     bool locate() override { return fluid_.locate(particles_); }
-    void sum_into_cells(CellSums& sums) override { fluid_.sum_into_cells(particles_, sums); }
-    ImpulseSums impulse_sums() override { return fluid_.impulse_sums(particles_); }
+    void sum_into_cells(CellSums& sums) override { finish_step(), fluid_.sum_into_cells(particles_, sums); }
+    ImpulseSums impulse_sums() override { return finish_step(), fluid_.impulse_sums(particles_); }
     void download_cells(exec::Buffer<std::int32_t>& cell_of) override
     {
         particles_.cell_of.download(device_, cell_of);
         device_.wait();
     }
 
-    void finish() override { device_.wait(); }
+    void finish() override { finish_step(), device_.wait(); }
 
     std::int64_t allocations() const override
     {
@@ -123,9 +127,30 @@ public:
     }
 
 private:
-    void half_kick(double h)
+    /// The second half kick of the step before, if it is still owed, the first of this one, and the drift.
+    void move(double dt)
     {
-        walls_.add_impulse(h);
+        device_.fork();
+        walls_.add_impulse(owed_, dt / 2);
+        if (with_fluid_)
+            device_.for_each(particles_.count(),
+                             MotionKernel<true>{particles_.view(), fluid_.loads(), particles_.impulses.data(), gravity_,
+                                                owed_, dt / 2, neighbors_.stale_test()});
+        else
+            device_.for_each(particles_.count(), MotionKernel<false>{particles_.view(), nullptr, nullptr, gravity_,
+                                                                     owed_, dt / 2, neighbors_.stale_test()});
+        device_.join();
+        owed_ = 0;
+    }
+
+    /// The second half kick of a step waits for the first of the next one, unless somebody looks at the state before.
+    void finish_step()
+    {
+        double const h = std::exchange(owed_, 0.0);
+        if (h == 0) return;
+        device_.fork();
+        walls_.add_impulse(0, h);
+        device_.join();
         if (with_fluid_)
             device_.for_each(particles_.count(), HalfKick<true>{particles_.view(), fluid_.loads(),
                                                                 particles_.impulses.data(), gravity_, h});
@@ -133,21 +158,40 @@ private:
             device_.for_each(particles_.count(), HalfKick<false>{particles_.view(), nullptr, nullptr, gravity_, h});
     }
 
-    bool update_neighbors()
+    /// Asks for the forces before it knows whether the list is stale, so that the device need not wait for the host to
+    /// ask; where it was, they do nothing, and are asked for again with a new list.
+    bool sum_contact_forces(double dt)
     {
-        if (!neighbors_.is_stale(particles_) && !walls_.is_stale(neighbors_.skin())) return true;
+        bool stale = !neighbors_.is_built() || walls_.is_stale(neighbors_.skin());
+        if (!stale)
+        {
+            neighbors_.ask_whether_stale();
+            launch_contact_forces(dt);
+            stale = neighbors_.is_stale();
+        }
+        if (!stale) return true;
+        if (!build_neighbors()) return false;
+        launch_contact_forces(dt);
+        return true;
+    }
+
+    void launch_contact_forces(double dt)
+    {
+        device_.fork();
+        walls_.find_forces(laws_, particles_, neighbors_.stale(), dt);
+        contacts_.find_forces(laws_, particles_, neighbors_, dt);
+        device_.join();
+        contacts_.sum_forces(particles_, neighbors_, walls_.forces());
+    }
+
+    bool build_neighbors()
+    {
         if (!neighbors_.build(particles_)) return false;
         walls_.build(particles_, neighbors_.skin(), neighbors_.order());
         auto const [low, high] = neighbors_.reached();
         host_walls_.remember_build(low, high);
         ++rebuilds_;
         return true;
-    }
-
-    void sum_contact_forces(double dt)
-    {
-        contacts_.sum_forces(laws_, particles_, neighbors_, dt);
-        walls_.add_forces(laws_, particles_, dt);
     }
 
     Device device_;  // before all that lives in its memory
@@ -160,6 +204,7 @@ private:
     DeviceWalls<Device> walls_;
     DeviceFluid<Device> fluid_;
     bool with_fluid_ = false;
+    double owed_ = 0;  ///< half step whose kick is still to come [s]
     std::int64_t rebuilds_ = 0;
 };
 

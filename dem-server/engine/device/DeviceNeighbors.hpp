@@ -8,6 +8,7 @@
 
 #include "contact/PairwiseKernels.hpp"
 #include "engine/device/DeviceParticles.hpp"
+#include "engine/device/MotionKernels.hpp"
 #include "exec/device/DeviceReduce.hpp"
 #include "exec/device/DeviceSort.hpp"
 #include "search/CandidateVisitor.hpp"
@@ -17,22 +18,6 @@
 
 namespace gimdem
 {
-
-/// Raises a flag where a particle moved more than half the skin since the list was built. All that raise it write the
-/// same.
-struct StaleTest
-{
-    Quad const* now;
-    Quad const* then;
-    double skin;  ///< [m]
-    std::int32_t* flag;
-
-    GIMDEM_HD void operator()(std::int64_t i) const
-    {
-        double const moved2 = (now[i].xyz() - then[i].xyz()).squaredNorm();
-        if (!(4 * moved2 <= skin * skin)) *flag = 1;  // a NaN must not hide
-    }
-};
 
 /// Moves particles into the periodic box.
 struct WrapKernel
@@ -110,10 +95,11 @@ public:
           domain_(domain),
           carries_rolling_(carries_rolling),
           centre_box_(device),
-          flag_here_(device),
+          stale_here_(device),
           number_(device)
     {
-        flag_.resize(device, 1);
+        stale_.resize(device, 1);
+        stale_.zero(device);
     }
 
     double skin() const { return skin_; }
@@ -126,6 +112,7 @@ public:
                 row_offsets_.data(),
                 by_second_.offsets.data(),
                 by_second_.members.data(),
+                own_seconds_.data(),
                 displacement_.data(),
                 rolling_spring_.data(),
                 touches_.data()};
@@ -138,7 +125,12 @@ public:
     /// Waits for it.
     void download(NeighborList& list) const;
 
-    bool is_stale(DeviceParticles<Device> const& particles);
+    // Whether a particle moved more than half the skin since the list was built: who moves particles tests them.
+    bool is_built() const { return is_built_; }
+    StaleTest stale_test() const { return {is_built_ ? built_at_.data() : nullptr, skin_, stale_.data()}; }
+    std::int32_t const* stale() const { return stale_.data(); }
+    void ask_whether_stale() { stale_here_.ask(stale_.data()); }
+    bool is_stale() { return stale_here_.answer() != 0; }
 
     /// Sorts the particles by level and cell, lists the pairs and carries the springs along. False, with nothing done,
     /// where a position is not finite. Returns the permutation in order().
@@ -155,6 +147,7 @@ private:
     bool sort_into_cells(DeviceParticles<Device>& particles);
     void list_pairs(DeviceParticles<Device> const& particles);
     void carry_springs();
+    void sort_by_second();
     template <class Work>
     void with_candidates(DeviceParticles<Device> const& particles, Work&& work) const;
 
@@ -169,17 +162,17 @@ private:
     CentreBox box_ = JoinBoxes{}.identity();
     SizeLevels levels_;
 
-    Array<std::int32_t> first_, second_, row_offsets_;
+    Array<std::int32_t> first_, second_, row_offsets_, own_seconds_;
     exec::DeviceGroups<Device> by_second_, by_cell_;
     Array<Quad> displacement_, rolling_spring_, built_at_;
     Array<std::uint8_t> touches_;
-    Array<std::int32_t> old_second_, old_row_offsets_, cell_of_, flag_;
+    Array<std::int32_t> old_second_, old_row_offsets_, cell_of_, stale_;
     Array<Quad> old_displacement_, old_rolling_spring_;
     DevicePermute<Device, std::int32_t> permute_;
     exec::DeviceScan<Device> scan_;
     exec::DeviceSort<Device> sort_;
     exec::DeviceReduce<Device, CentreBox> centre_box_;
-    exec::DeviceScalar<Device, std::int32_t> flag_here_, number_;
+    exec::DeviceScalar<Device, std::int32_t> stale_here_, number_;
 };
 
 template <class Device>
@@ -204,12 +197,13 @@ void DeviceNeighbors<Device>::upload(ParticleState const& particles, NeighborLis
         built_at[i] = Quad::of(list.built_at[i].vec(), 0);
     displacement_.upload(device_, springs.tangential);
     if (carries_rolling_) rolling_spring_.upload(device_, springs.rolling);
+    stale_.zero(device_);
     if (!is_built_ || n == 0) return device_.wait();
     first_.upload(device_, first);
     touches_.upload(device_, springs.touches);
     built_at_.upload(device_, built_at);
     device_.wait();  // before what they come from goes
-    sort_(device_, {second_.data(), second_.size()}, static_cast<std::int32_t>(n), by_second_);
+    sort_by_second();
 }
 
 template <class Device>
@@ -231,15 +225,6 @@ void DeviceNeighbors<Device>::download(NeighborList& list) const
 }
 
 template <class Device>
-bool DeviceNeighbors<Device>::is_stale(DeviceParticles<Device> const& particles)
-{
-    if (!is_built_) return true;
-    flag_.zero(device_);
-    device_.for_each(particles.count(), StaleTest{particles.position.data(), built_at_.data(), skin_, flag_.data()});
-    return flag_here_.read(flag_.data()) != 0;
-}
-
-template <class Device>
 bool DeviceNeighbors<Device>::build(DeviceParticles<Device>& particles)
 {
     if (!sort_into_cells(particles)) return false;
@@ -250,6 +235,7 @@ bool DeviceNeighbors<Device>::build(DeviceParticles<Device>& particles)
     list_pairs(particles);
     carry_springs();
     built_at_.copy(device_, particles.position);
+    stale_.zero(device_);
     is_built_ = has_springs_ = true;
     return true;
 }
@@ -316,7 +302,17 @@ void DeviceNeighbors<Device>::list_pairs(DeviceParticles<Device> const& particle
                                          PairFiller<Candidates, Near>{
                                              candidates, near, row_offsets_.data(), {first_.data()}, second_.data()});
                     });
-    sort_(device_, {second_.data(), pairs}, static_cast<std::int32_t>(n), by_second_);
+    sort_by_second();
+}
+
+template <class Device>
+void DeviceNeighbors<Device>::sort_by_second()
+{
+    std::int64_t const n = row_offsets_.size() - 1;
+    sort_(device_, {second_.data(), second_.size()}, static_cast<std::int32_t>(n), by_second_);
+    own_seconds_.resize(device_, n);
+    device_.for_each(
+        n, OwnSeconds{first_.data(), by_second_.offsets.data(), by_second_.members.data(), own_seconds_.data()});
 }
 
 template <class Device>

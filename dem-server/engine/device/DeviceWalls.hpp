@@ -53,12 +53,16 @@ public:
     /// Lists the pairs closer than radius + skin [m]; the springs move along with `order`.
     void build(DeviceParticles<Device> const& particles, double skin, std::int32_t const* order);
 
-    /// Adds the walls' forces and torques; advances the springs by dt [s]. In a file of its own, like DeviceContacts.
-    void add_forces(DeviceLaws<Device> const& laws, DeviceParticles<Device> const& particles, double dt);
+    /// Finds the walls' forces, beside whatever else the device does; advances the springs by dt [s]. Nothing happens
+    /// where the flag `stale` is raised. In a file of its own, like DeviceContacts.
+    void find_forces(DeviceLaws<Device> const& laws, DeviceParticles<Device> const& particles,
+                     std::int32_t const* stale, double dt);
+    WallForcesView forces() const { return {near_places_.data(), force_.data()}; }
 
-    // Time integral of the walls' force [N s].
+    // Time integral of the walls' force [N s], computed beside whatever else the device does: over the half step owed
+    // to the step before, if any, then over h [s].
     void clear_impulse(std::int64_t particle_count);
-    void add_impulse(double h);
+    void add_impulse(double owed, double h);
     Vec3 impulse();
 
 private:
@@ -75,7 +79,8 @@ private:
     Array<std::int32_t> first_pair_, offsets_, plane_, old_offsets_, old_plane_, near_, near_places_;
     Array<std::uint8_t> whole_;
     Array<std::uint64_t> seen_;
-    Array<Quad> displacement_, rolling_spring_, old_displacement_, old_rolling_spring_, force_, impulse_;
+    Array<Quad> displacement_, rolling_spring_, old_displacement_, old_rolling_spring_, impulse_;
+    Array<WallForce> force_;
     Array<Touch> touches_;
     exec::DeviceScan<Device> scan_;
     exec::DeviceReduce<Device, std::int32_t> highest_;

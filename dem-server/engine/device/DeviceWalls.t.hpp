@@ -32,14 +32,27 @@ struct ListNear
     }
 };
 
+struct WallForceOf
+{
+    WallForce const* forces;
+
+    GIMDEM_HD Quad operator()(std::int64_t n) const { return forces[n].force; }
+};
+
 struct WallImpulseKernel
 {
     std::int32_t const* near;
-    Quad const* force;
-    double h;
+    WallForce const* forces;
+    double owed, h;
     Quad* impulse;
 
-    GIMDEM_HD void operator()(std::int64_t n) const { impulse[near[n]] = impulse[near[n]] + h * force[n]; }
+    GIMDEM_HD void operator()(std::int64_t n) const
+    {
+        Quad sum = impulse[near[n]];
+        Quad const force = forces[n].force;
+        if (owed > 0) sum = sum + owed * force;
+        impulse[near[n]] = sum + h * force;
+    }
 };
 
 template <class Device>
@@ -98,7 +111,7 @@ void DeviceWalls<Device>::upload(WallPairs const& pairs, std::int64_t particle_c
 template <class Device>
 void DeviceWalls<Device>::download(WallPairs& pairs)
 {
-    if (!force_is_hosts_) walls_.set_total_force(sum_(force_.size(), EntryOf<Quad>{force_.data()}, Add<Quad>{}).xyz());
+    if (!force_is_hosts_) walls_.set_total_force(sum_(force_.size(), WallForceOf{force_.data()}, Add<Quad>{}).xyz());
     offsets_.download(device_, pairs.offsets);
     plane_.download(device_, pairs.plane);
     whole_.download(device_, pairs.whole);
@@ -162,8 +175,8 @@ void DeviceWalls<Device>::find_near(std::int64_t particle_count)
 }
 
 template <class Device>
-void DeviceWalls<Device>::add_forces(DeviceLaws<Device> const& laws, DeviceParticles<Device> const& particles,
-                                     double dt)
+void DeviceWalls<Device>::find_forces(DeviceLaws<Device> const& laws, DeviceParticles<Device> const& particles,
+                                      std::int32_t const* stale, double dt)
 {
     if (walls_.some_move()) geometry_.take_poses(device_, walls_);
     ParticleWallFinder const find{{geometry_.view(), plane_.data(), whole_.data()},
@@ -175,8 +188,9 @@ void DeviceWalls<Device>::add_forces(DeviceLaws<Device> const& laws, DeviceParti
     laws.visit(
         [&]<class Law>(typename Law::template Constants<double> const* constants)
         {
-            device_.for_each(near_.size(), ParticleWallKernel<Law>{particles.view(), find, near_.data(), constants,
-                                                                   first_pair_.data(), dt, force_.data()});
+            device_.for_each_beside(
+                near_.size(), Unless{stale, ParticleWallKernel<Law>{particles.view(), find, near_.data(), constants,
+                                                                    first_pair_.data(), dt, force_.data()}});
         });
 }
 
@@ -189,12 +203,12 @@ void DeviceWalls<Device>::clear_impulse(std::int64_t particle_count)
 }
 
 template <class Device>
-void DeviceWalls<Device>::add_impulse(double h)
+void DeviceWalls<Device>::add_impulse(double owed, double h)
 {
     if (force_is_hosts_)
-        hosts_impulse_ += h * walls_.total_force();
+        hosts_impulse_ += h * walls_.total_force();  // of a state that has just come from the host: it owes nothing
     else
-        device_.for_each(near_.size(), WallImpulseKernel{near_.data(), force_.data(), h, impulse_.data()});
+        device_.for_each_beside(near_.size(), WallImpulseKernel{near_.data(), force_.data(), owed, h, impulse_.data()});
 }
 
 template <class Device>

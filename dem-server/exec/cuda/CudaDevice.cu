@@ -31,12 +31,18 @@ CudaDevice::CudaDevice(Sorting sorting) : sorting_(sorting)
     if (status != cudaSuccess)
         throw UserError(std::string("no GPU can be used (") + cudaGetErrorString(status) +
                         "); see that nvidia-smi lists one, or run with --device cpu");
+    check(cudaStreamCreateWithFlags(&beside_, cudaStreamNonBlocking), "making a stream");
+    for (cudaEvent_t* const event : {&mark_, &fork_, &join_})
+        check(cudaEventCreateWithFlags(event, cudaEventDisableTiming), "making an event");
 }
 
 CudaDevice::~CudaDevice()
 {
     // A failure was reported where it happened.
     cudaFree(scratch_);
+    for (cudaEvent_t const event : {mark_, fork_, join_})
+        cudaEventDestroy(event);
+    cudaStreamDestroy(beside_);
     cudaStreamDestroy(stream_);
 }
 
@@ -87,6 +93,28 @@ void CudaDevice::zero(void* device, std::size_t bytes)
 void CudaDevice::wait()
 {
     check(cudaStreamSynchronize(stream_), "computing");
+}
+
+void CudaDevice::fork()
+{
+    check(cudaEventRecord(fork_, stream_), "recording an event");
+    check(cudaStreamWaitEvent(beside_, fork_, 0), "waiting for an event");
+}
+
+void CudaDevice::join()
+{
+    check(cudaEventRecord(join_, beside_), "recording an event");
+    check(cudaStreamWaitEvent(stream_, join_, 0), "waiting for an event");
+}
+
+void CudaDevice::mark()
+{
+    check(cudaEventRecord(mark_, stream_), "recording an event");
+}
+
+void CudaDevice::wait_for_mark()
+{
+    check(cudaEventSynchronize(mark_), "computing");
 }
 
 void CudaDevice::check_launch()

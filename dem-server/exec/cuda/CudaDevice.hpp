@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// A GPU by way of CUDA: one stream, in which kernels and copies follow each other. For files that nvcc compiles.
+/// A GPU by way of CUDA: a stream in which kernels and copies follow each other, and one for what goes beside them. For
+/// files that nvcc compiles.
 ///
-/// Of the runtime it uses memory, copies, streams and launches, and nothing else.
+/// Of the runtime it uses memory, copies, streams, events and launches, and nothing else.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -47,16 +48,20 @@ public:
     void copy(void* to, void const* from, std::size_t bytes);
     void zero(void* device, std::size_t bytes);
     void wait();
+    void mark();
+    void wait_for_mark();
 
+    void fork();
+    void join();
     template <class Kernel>
     void for_each(Index count, Kernel const& kernel)
     {
-        static_assert(std::is_trivially_copyable_v<Kernel>, "a kernel must be a trivially copyable functor over views");
-        static_assert(sizeof(Kernel) <= 4000, "a kernel's arguments must fit into 4 KiB");
-        if (count == 0) return;
-        auto const blocks = static_cast<unsigned>((count + detail::launch_width - 1) / detail::launch_width);
-        detail::launch<<<blocks, detail::launch_width, 0, stream_>>>(count, kernel);
-        check_launch();
+        launch(count, kernel, stream_);
+    }
+    template <class Kernel>
+    void for_each_beside(Index count, Kernel const& kernel)
+    {
+        launch(count, kernel, beside_);
     }
 
     // By CUB, unless plain kernels were asked for.
@@ -65,11 +70,23 @@ public:
                          std::int32_t* sorted_keys, std::int32_t* sorted_members);
 
 private:
+    template <class Kernel>
+    void launch(Index count, Kernel const& kernel, cudaStream_t stream)
+    {
+        static_assert(std::is_trivially_copyable_v<Kernel>, "a kernel must be a trivially copyable functor over views");
+        static_assert(sizeof(Kernel) <= 4000, "a kernel's arguments must fit into 4 KiB");
+        if (count == 0) return;
+        auto const blocks = static_cast<unsigned>((count + detail::launch_width - 1) / detail::launch_width);
+        detail::launch<<<blocks, detail::launch_width, 0, stream>>>(count, kernel);
+        check_launch();
+    }
     void check_launch();
     void* scratch(std::size_t bytes);
 
     Sorting sorting_;
     cudaStream_t stream_ = nullptr;
+    cudaStream_t beside_ = nullptr;
+    cudaEvent_t mark_ = nullptr, fork_ = nullptr, join_ = nullptr;
     void* scratch_ = nullptr;
     std::size_t scratch_bytes_ = 0;
 };

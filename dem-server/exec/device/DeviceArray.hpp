@@ -8,7 +8,10 @@
 ///   void* allocate_pinned(bytes), free_pinned(p)   the other way round
 ///   copy_in(device, host, bytes), copy_out(host, device, bytes), copy(device, device, bytes), zero(device, bytes)
 ///   for_each(count, kernel)                   a trivially copyable functor over views, operator()(Index) const
+///   fork(), for_each_beside(count, kernel), join()   kernels that may run at the same time as those asked for between
+///                                             the same fork() and join(); they follow what was asked for before fork()
 ///   wait()                                    until everything asked for has happened
+///   mark(), wait_for_mark()                   until everything asked for before the last mark() has happened
 ///   scan_by_library(...), sort_by_library(...)     false where plain kernels are to do it
 #pragma once
 
@@ -111,6 +114,18 @@ public:
     {
         device_.copy_out(here_, there, sizeof(T));
         device_.wait();
+        return *here_;
+    }
+
+    /// The same in two parts, between which more can be asked for; one question at a time on a device.
+    void ask(T const* there)
+    {
+        device_.copy_out(here_, there, sizeof(T));
+        device_.mark();
+    }
+    T answer()
+    {
+        device_.wait_for_mark();
         return *here_;
     }
 

@@ -4,6 +4,7 @@
 /// no sooner. What works here does not depend on an order, and forgets no copy and no wait.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <new>
 #include <numeric>
@@ -50,12 +51,9 @@ public:
         auto const opened = memory_.open(device, "zero");
         std::memset(device, 0, bytes);
     }
-    void wait()
-    {
-        for (Arrival const& arrival : on_their_way_)
-            std::memcpy(arrival.host, arrival.bytes.data(), arrival.bytes.size());
-        on_their_way_.clear();
-    }
+    void wait() { arrive(on_their_way_.size()); }
+    void mark() { marked_ = on_their_way_.size(); }
+    void wait_for_mark() { arrive(marked_); }
 
     template <class Kernel>
     void for_each(Index count, Kernel kernel)
@@ -73,6 +71,14 @@ public:
         for (Index k = 0; k < count; ++k)
             kernel((step * k + start) % count);
     }
+
+    template <class Kernel>
+    void for_each_beside(Index count, Kernel const& kernel)
+    {
+        for_each(count, kernel);
+    }
+    void fork() {}
+    void join() {}
 
     // It has no library.
     bool scan_by_library(View<std::int32_t>)
@@ -115,10 +121,20 @@ private:
         return {step, next(count)};
     }
 
+    /// The first `count` copies on their way arrive.
+    void arrive(std::size_t count)
+    {
+        for (std::size_t k = 0; k < count; ++k)
+            std::memcpy(on_their_way_[k].host, on_their_way_[k].bytes.data(), on_their_way_[k].bytes.size());
+        on_their_way_.erase(on_their_way_.begin(), on_their_way_.begin() + static_cast<std::ptrdiff_t>(count));
+        marked_ -= std::min(marked_, count);
+    }
+
     GuardedMemory memory_;
     std::uint64_t random_;
     int threads_;
     std::vector<Arrival> on_their_way_;
+    std::size_t marked_ = 0;  ///< how many of them were asked for before the last mark
 };
 
 }  // namespace gimdem::exec

@@ -56,12 +56,18 @@ double energy(SphereBox const& scene, double edge)
     return sum;
 }
 
-TEST(Conservation, EnergyDoesNotDriftWithoutLosses)
+class ConservationIn : public testing::TestWithParam<char const*>
+{
+};
+
+TEST_P(ConservationIn, EnergyDoesNotDriftWithoutLosses)
 {
     // 125 spheres without friction fly about in a closed box for 1e5 steps.
     double const edge = 0.015, dt = 5e-6;
-    SphereBox scene(impact_case(bead, bead, 1, 0), {{edge, edge, edge}, closed()},
-                    cloud(5, edge / 5, Vec3::Zero(), 0.3));
+    Case settings = impact_case(bead, bead, 1, 0);
+    settings.dem.precision = GetParam();
+    fmt::print("precision = {}\n", GetParam());
+    SphereBox scene(settings, {{edge, edge, edge}, closed()}, cloud(5, edge / 5, Vec3::Zero(), 0.3));
     double const before = energy(scene, edge);
     double worst = 0;
     for (int n = 0; n < 100; ++n)
@@ -76,6 +82,8 @@ TEST(Conservation, EnergyDoesNotDriftWithoutLosses)
     EXPECT_LT(worst, 1e-4);
     EXPECT_GT(scene.system().rebuilds(), 100);  // they did move about
 }
+
+INSTANTIATE_TEST_SUITE_P(Precision, ConservationIn, testing::Values("double", "mixed"));
 
 /// Sums over all particles, and of the magnitudes they are made of.
 struct Totals

@@ -140,4 +140,18 @@ TEST(HeadOnImpact, RestitutionIsWhatWasAskedFor)
     figure("restitution_worst_deviation", worst);
 }
 
+TEST(HeadOnImpact, RestitutionIsTheSameWithoutAttraction)
+{
+    double worst = 0;
+    for (double const e : {0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0})
+    {
+        WallImpact impact{alumina, rigid(), e, 0, 0.0025, 3.9};
+        impact.limit_damping = true;
+        double const got = rebound_of(impact, 4000).normal_speed / 3.9;
+        EXPECT_NEAR(got, e, 1e-3);  // as above
+        worst = std::max(worst, std::abs(got - e));
+    }
+    figure("restitution_without_attraction_worst_deviation", worst);
+}
+
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "SphereBox.hpp"
@@ -50,11 +51,12 @@ struct PeersBed
         return out;
     }
 
-    static std::unique_ptr<SphereBox> make(exec::Execution execution = serial)
+    static std::unique_ptr<SphereBox> make(exec::Execution execution = serial, std::string const& precision = "double")
     {
         Case settings = bead_case(0.9, 0.3);
         settings.dem.gravity = {0, 0, -9.81};
         settings.dem.skin = 0.3;
+        settings.dem.precision = precision;
         return std::make_unique<SphereBox>(settings,
                                            Box{{width, depth, height}, {"left", "right", "front", "back", "bottom"}},
                                            lattice(), std::vector<int>{}, execution);

@@ -19,9 +19,14 @@ void print(std::string const& time, BedFigures const& f)
     figure("peers_bed_" + time + "_solid_fraction", f.solid_fraction);
 }
 
-TEST(PeersBed, FallsAndSettlesLikeTheirs)
+class PeersBedIn : public testing::TestWithParam<char const*>
 {
-    auto const bed = PeersBed::make();
+};
+
+TEST_P(PeersBedIn, FallsAndSettlesLikeTheirs)
+{
+    fmt::print("precision = {}\n", GetParam());
+    auto const bed = PeersBed::make(serial, GetParam());
     int done = 0;
     // LIGGGHTS and LAMMPS, before the packing becomes chaotic: they differ by 0.05 % at most.
     for (auto const& [step, want] : {std::pair{1000, 7.200e-4}, {3000, 5.579e-3}, {5000, 1.03564e-2}})
@@ -46,5 +51,7 @@ TEST(PeersBed, FallsAndSettlesLikeTheirs)
     EXPECT_NEAR(rest.mean_overlap, 0.02495, 0.00025);
     EXPECT_NEAR(rest.solid_fraction, 0.6404, 0.003);
 }
+
+INSTANTIATE_TEST_SUITE_P(Precision, PeersBedIn, testing::Values("double", "mixed"));
 
 }  // namespace

@@ -108,7 +108,8 @@ Vector3<double> get(Vector3<Octet> const& from, int lane)
 {
     return {from.x[lane], from.y[lane], from.z[lane]};
 }
-/// Eigen's root of eight numbers may differ from the root of one in the last bit: some roundings, some cancellation.
+/// Roots of eight numbers may differ from the root of one in the last bits, and products are added with one rounding
+/// instead of two: some roundings, some cancellation.
 void expect_equal(Vector3<double> const& a, Vector3<double> const& b)
 {
     Vector3<double> const off = a - b;

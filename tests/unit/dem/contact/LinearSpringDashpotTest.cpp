@@ -59,7 +59,12 @@ ContactGeometry<double> contact_with(Vector3<double> const& normal, Vector3<doub
 
 TEST(LinearSpringDashpot, ForceIsSpringPlusDashpotInBothDirections)
 {
-    LinearConstants<double> const constants{.stiffness = 500, .damping = 0.2, .stiffness_ratio = 0.25, .friction = 10};
+    LinearConstants<double> const constants{.stiffness = 500,
+                                            .damping = 0.2,
+                                            .stiffness_ratio = 0.25,
+                                            .friction = 10,
+                                            .tangential_share = 0.5,
+                                            .least_force = -1e30};
     Vector3<double> spring{0, 0, 0};
     auto const contact = contact_with({0, 0, 1}, {0.01, 0, -0.02}, 1e-5);
 
@@ -73,9 +78,30 @@ TEST(LinearSpringDashpot, ForceIsSpringPlusDashpotInBothDirections)
     EXPECT_EQ(out.stiffness, 500);
 }
 
+TEST(LinearSpringDashpot, LimitedDampingNeverPulls)
+{
+    LinearConstants<double> const constants{.stiffness = 500,
+                                            .damping = 0.2,
+                                            .stiffness_ratio = 0.25,
+                                            .friction = 10,
+                                            .tangential_share = 0,
+                                            .least_force = 0};
+    Vector3<double> spring{0, 0, 0};
+    // It parts so fast that the dashpot is stronger than the spring.
+    auto const out =
+        LinearSpringDashpot::apply<double>(constants, 1e-6, contact_with({0, 0, 1}, {0.01, 0, 10}, 1e-5), spring);
+    EXPECT_EQ(out.normal, 0);
+    EXPECT_EQ(out.tangential.x, 0);  // what does not press does not rub
+}
+
 TEST(LinearSpringDashpot, SlidingForceIsCoulombsAndTheSpringIsCutToIt)
 {
-    LinearConstants<double> const constants{.stiffness = 500, .damping = 0, .stiffness_ratio = 0.25, .friction = 0.3};
+    LinearConstants<double> const constants{.stiffness = 500,
+                                            .damping = 0,
+                                            .stiffness_ratio = 0.25,
+                                            .friction = 0.3,
+                                            .tangential_share = 0.5,
+                                            .least_force = -1e30};
     Vector3<double> spring{3e-4, 4e-4, 0};
 
     auto const out =
