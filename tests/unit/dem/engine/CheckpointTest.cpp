@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <string>
 
 #include "StlText.hpp"
 #include "TestCase.hpp"
