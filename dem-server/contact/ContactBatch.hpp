@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Touching pairs of one block side by side in columns, which the stages of PairKernel fill and work on one after the other: a short
-/// loop at a time, so that the processor has several rows of lanes under way.
+/// Touching pairs of one block side by side in columns, which the stages of PairKernel fill and work on one after the
+/// other: a short loop at a time, so that the processor has several rows of lanes under way.
 #pragma once
 
 #include <cstdint>
@@ -105,17 +105,17 @@ struct ContactBatch
     alignas(64) std::int32_t border[room];  ///< slot of the force on the second, -1 where it is of the block
 
     // What look() finds.
-    Vectors between;  ///< from the second to the first [m]
-    Numbers square;   ///< of that [m^2]
+    Vectors between;                                           ///< from the second to the first [m]
+    Numbers square;                                            ///< of that [m^2]
     [[no_unique_address]] Only<is_single, Numbers> closeness;  ///< square of the reach less that [m^2]
 
     // What gather() brings.
-    Vectors velocity;         ///< of the first relative to the second [m/s]; then the force on the first [N]
-    Vectors spin_a, spin_b;   ///< [rad/s]; then the torques [N m]
-    Vectors spring;           ///< tangential [m]
-    [[no_unique_address]] Only<!one_size, Numbers> radius_a, radius_b;  ///< [m]
-    [[no_unique_address]] Only<!one_size, Numbers> inverse_mass;        ///< 1/m_i + 1/m_j [1/kg]
-    [[no_unique_address]] Only<Law::rolls, Numbers> inverse_inertia;    ///< 1/I_i + 1/I_j [1/(kg m^2)]
+    Vectors velocity;        ///< of the first relative to the second [m/s]; then the force on the first [N]
+    Vectors spin_a, spin_b;  ///< [rad/s]; then the torques [N m]
+    Vectors spring;          ///< tangential [m]
+    [[no_unique_address]] Only<!one_size, Numbers> radius_a, radius_b;            ///< [m]
+    [[no_unique_address]] Only<!one_size, Numbers> inverse_mass;                  ///< 1/m_i + 1/m_j [1/kg]
+    [[no_unique_address]] Only<Law::rolls, Numbers> inverse_inertia;              ///< 1/I_i + 1/I_j [1/(kg m^2)]
     [[no_unique_address]] Only<Law::has_rolling_spring, Vectors> rolling_spring;  ///< [N m]
 
     bool is_full() const { return count >= most; }

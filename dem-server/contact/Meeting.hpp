@@ -23,14 +23,14 @@ struct MovingSphere
 template <class Real>
 struct Encounter
 {
-    Vector3<Real> between;          ///< centre of a - centre of b [m]
-    Real square;                    ///< its square [m^2]
-    Real closeness;                 ///< (r_a + r_b)^2 - square [m^2]; only where Real is of single precision
-    Vector3<Real> velocity;         ///< of a relative to b [m/s]
-    Vector3<Real> spin_a, spin_b;   ///< [rad/s]; spheres of one size that do not resist rolling: their sum, and nothing
-    Real radius_a, radius_b;        ///< [m]
-    Real inverse_mass;              ///< 1/m_a + 1/m_b [1/kg]
-    Real inverse_inertia;           ///< 1/I_a + 1/I_b [1/(kg m^2)]
+    Vector3<Real> between;         ///< centre of a - centre of b [m]
+    Real square;                   ///< its square [m^2]
+    Real closeness;                ///< (r_a + r_b)^2 - square [m^2]; only where Real is of single precision
+    Vector3<Real> velocity;        ///< of a relative to b [m/s]
+    Vector3<Real> spin_a, spin_b;  ///< [rad/s]; spheres of one size that do not resist rolling: their sum, and nothing
+    Real radius_a, radius_b;       ///< [m]
+    Real inverse_mass;             ///< 1/m_a + 1/m_b [1/kg]
+    Real inverse_inertia;          ///< 1/I_a + 1/I_b [1/(kg m^2)]
 };
 
 template <class Real, class Space>
@@ -48,6 +48,30 @@ GIMDEM_HD Encounter<Real> encounter(MovingSphere<Real> const& a, MovingSphere<Re
             .radius_b = b.radius,
             .inverse_mass = a.inverse_mass + b.inverse_mass,
             .inverse_inertia = a.inverse_inertia + b.inverse_inertia};
+}
+
+/// The same in the precision of Real: differences of positions and of squares are taken in double.
+template <class Real, class Space>
+GIMDEM_HD Encounter<Real> encounter_in(MovingSphere<double> const& a, MovingSphere<double> const& b, Space const& space)
+{
+    Encounter<double> const met = encounter(a, b, space);
+    if constexpr (!exec::is_single<Real>)
+        return met;
+    else
+    {
+        double const reach = a.radius + b.radius;
+        auto const narrow = [](Vector3<double> const& v) { return Vector3<Real>{v.x, v.y, v.z}; };
+        return {.between = narrow(met.between),
+                .square = met.square,
+                .closeness = reach * reach - met.square,
+                .velocity = narrow(met.velocity),
+                .spin_a = narrow(met.spin_a),
+                .spin_b = narrow(met.spin_b),
+                .radius_a = met.radius_a,
+                .radius_b = met.radius_b,
+                .inverse_mass = met.inverse_mass,
+                .inverse_inertia = met.inverse_inertia};
+    }
 }
 
 /// r_a + r_b - distance [m]. In single precision the difference of two lengths would have lost the digits of a small
@@ -81,11 +105,12 @@ GIMDEM_HD ContactGeometry<Real> meet(Encounter<Real> const& met)
         spin = Real(met.radius_a - half) * met.spin_a;
     else
         spin = (Real(met.radius_a - half) * met.spin_a).plus(Real(met.radius_b - half), met.spin_b);
-    ContactGeometry<Real> contact{.normal = normal,
-                                  .overlap = overlap,
-                                  .velocity = met.velocity - spin.cross(normal),
-                                  .radius_eff = one_size ? Real(met.radius_a / 2) : Real(met.radius_a * met.radius_b / reach),
-                                  .mass_eff = 1 / met.inverse_mass};
+    ContactGeometry<Real> contact{
+        .normal = normal,
+        .overlap = overlap,
+        .velocity = met.velocity - spin.cross(normal),
+        .radius_eff = one_size ? Real(met.radius_a / 2) : Real(met.radius_a * met.radius_b / reach),
+        .mass_eff = 1 / met.inverse_mass};
     if constexpr (Law::rolls)
     {
         contact.spin = met.spin_a - met.spin_b;

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "contact/Meeting.hpp"
+#include "exec/Single.hpp"
 #include "particles/ParticleState.hpp"
 #include "search/NeighborList.hpp"
 
@@ -26,24 +28,34 @@ struct PairwiseView
     std::uint8_t* touches;
 };
 
+/// Four numbers of the precision of a Real.
+struct alignas(16) SingleQuad
+{
+    float x, y, z, w;
+};
+template <class Real>
+using QuadOf = std::conditional_t<exec::is_single<Real>, SingleQuad, Quad>;
+
 /// What a touching pair does.
+template <class Real>
 struct PairForce
 {
-    Quad force;  ///< on the first [N]; w: lever of the first [m]
-    Quad turn;   ///< tangential force x normal [N]; w: lever of the second [m]
+    QuadOf<Real> force;  ///< on the first [N]; w: lever of the first [m]
+    QuadOf<Real> turn;   ///< tangential force x normal [N]; w: lever of the second [m]
 };
 
-/// Force of pair k; its springs go one step on.
-template <class Law, class Space>
+/// Force of pair k; its springs go one step on. Real: double, or exec::Single for the law alone, theory.md (D.42);
+/// springs are double.
+template <class Law, class Space, class Real>
 struct PairForceKernel
 {
     ParticleView particles;
     PairwiseView list;
-    typename Law::template Constants<double> const* constants;
+    typename Law::template Constants<Real> const* constants;
     std::int32_t material_count;
     double dt;
     Space space;
-    PairForce* pair_force;
+    PairForce<Real>* pair_force;
     Quad* rolling_torque;  ///< on the first [N m]; null where the law has none
 
     GIMDEM_HD void operator()(std::int64_t k) const
@@ -71,16 +83,27 @@ private:
     GIMDEM_HD void compute(std::int64_t k, std::int32_t i, std::int32_t j) const
     {
         MovingSphere<double> const a = sphere(i), b = sphere(j);
-        ContactGeometry<double> const contact = meet<Law, false>(encounter(a, b, space));
-        ContactSprings<double> springs{vector3(list.displacement[k].xyz())};
-        if constexpr (Law::has_rolling_spring) springs.rolling = vector3(list.rolling_spring[k].xyz());
-        ContactForce<double> const result = Law::template apply<double>(
+        ContactGeometry<Real> const contact = meet<Law, false>(encounter_in<Real>(a, b, space));
+        ContactSprings<Real> springs{spring(list.displacement[k])};
+        if constexpr (Law::has_rolling_spring) springs.rolling = spring(list.rolling_spring[k]);
+        ContactForce<Real> const result = Law::template apply<Real>(
             constants[particles.material[i] * material_count + particles.material[j]], dt, contact, springs);
-        list.displacement[k] = Quad::of(vec3(springs.tangential), 0);
-        if constexpr (Law::has_rolling_spring) list.rolling_spring[k] = Quad::of(vec3(springs.rolling), 0);
-        pair_force[k] = {Quad::of(vec3(result.force), a.radius - contact.overlap / 2),
-                         Quad::of(vec3(result.tangential.cross(contact.normal)), b.radius - contact.overlap / 2)};
-        if constexpr (Law::rolls) rolling_torque[k] = Quad::of(vec3(result.rolling), 0);
+        list.displacement[k] = stored(springs.tangential);
+        if constexpr (Law::has_rolling_spring) list.rolling_spring[k] = stored(springs.rolling);
+        Real const half = contact.overlap / 2;
+        pair_force[k] = {record(result.force, Real(a.radius) - half),
+                         record(result.tangential.cross(contact.normal), Real(b.radius) - half)};
+        if constexpr (Law::rolls) rolling_torque[k] = stored(result.rolling);
+    }
+
+    GIMDEM_HD static Vector3<Real> spring(Quad const& q) { return {Real(q.x), Real(q.y), Real(q.z)}; }
+    GIMDEM_HD static Quad stored(Vector3<Real> const& v) { return {double(v.x), double(v.y), double(v.z), 0}; }
+    GIMDEM_HD static QuadOf<Real> record(Vector3<Real> const& v, Real const& lever)
+    {
+        if constexpr (exec::is_single<Real>)
+            return {v.x.value, v.y.value, v.z.value, lever.value};
+        else
+            return {v.x, v.y, v.z, lever};
     }
 
     GIMDEM_HD MovingSphere<double> sphere(std::int32_t i) const
@@ -110,12 +133,12 @@ struct OwnSeconds
 
 /// Sets force and torque of particle i to the sum over its pairs: first those with particles before it in its block,
 /// then those with particles after it, then those with particles of earlier blocks; last, the walls.
-template <class WallForces>
+template <class Real, class WallForces>
 struct ContactSumKernel
 {
     ParticleView particles;
     PairwiseView list;
-    PairForce const* pair_force;
+    PairForce<Real> const* pair_force;
     Quad const* rolling_torque;  ///< null where the law has none
     WallForces walls;
 
@@ -140,7 +163,7 @@ private:
 
     GIMDEM_HD void add_first(std::int32_t k, Sum& sum) const
     {
-        PairForce const& pair = pair_force[k];
+        PairForce<Real> const& pair = pair_force[k];
         sum.force = sum.force + without_w(pair.force);
         Quad turn = pair.force.w * without_w(pair.turn);
         if (rolling_torque != nullptr) turn = turn + rolling_torque[k];
@@ -153,7 +176,7 @@ private:
         {
             std::int32_t const k = list.second_pairs[m];
             if (list.touches[k] == 0) continue;
-            PairForce const& pair = pair_force[k];
+            PairForce<Real> const& pair = pair_force[k];
             sum.force = sum.force - without_w(pair.force);
             Quad turn = pair.turn.w * without_w(pair.turn);
             if (rolling_torque != nullptr) turn = turn - rolling_torque[k];
@@ -161,7 +184,7 @@ private:
         }
     }
 
-    GIMDEM_HD static Quad without_w(Quad const& q) { return {q.x, q.y, q.z, 0}; }
+    GIMDEM_HD static Quad without_w(QuadOf<Real> const& q) { return {q.x, q.y, q.z, 0}; }
 };
 
 }  // namespace gimdem

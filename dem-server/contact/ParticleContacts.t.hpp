@@ -16,10 +16,10 @@ void ParticleContacts::sum_pairs(ParticleState& particles, NeighborList& list, d
         {
             auto const compute = [&]<bool one_material, bool one_size>(auto space)
             {
-                exec::for_each_uneven(execution_, list.block_count(),
-                                      PairKernel<Law, one_material, one_size, decltype(space), Real>{
-                                          particles.view(), list.view(), table.constants.view().data, material_count_,
-                                          dt, space});
+                exec::for_each_uneven(
+                    execution_, list.block_count(),
+                    PairKernel<Law, one_material, one_size, decltype(space), Real>{
+                        particles.view(), list.view(), table.constants.view().data, material_count_, dt, space});
             };
             // Periodic scenes are few: one kernel serves them all.
             if (domain_.is_periodic())

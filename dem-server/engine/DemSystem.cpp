@@ -24,7 +24,7 @@ DemSystem::DemSystem(Case const& settings, exec::Execution execution, Materials 
       particle_contacts_(execution, materials, have_one_size(particles_), Domain::of(settings.domain)),
       wall_contacts_(execution, materials, materials.number_of(settings.walls.material), walls)
 {
-    check_precision(settings, execution, smallest_radius(settings, particles_));
+    check_precision(settings, smallest_radius(settings, particles_));
     for (std::int64_t const id : particles_.id.host())
         next_id_ = std::max(next_id_, id + 1);
     neighbors_.carries_rolling = particle_contacts_.has_rolling_springs();

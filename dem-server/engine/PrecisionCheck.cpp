@@ -8,13 +8,9 @@
 namespace gimdem
 {
 
-void check_precision(Case const& settings, exec::Execution const& execution, double smallest_radius)
+void check_precision(Case const& settings, double smallest_radius)
 {
     if (settings.dem.precision != "mixed") return;
-    if (execution.backend == exec::Backend::cuda || execution.backend == exec::Backend::guarded)
-        throw UserError(
-            "precision = \"mixed\" cannot be computed on a GPU (its kernels are in double); use precision = \"double\", "
-            "or --device cpu");
     if (smallest_radius > 0 && smallest_radius < smallest_radius_in_single)
         throw UserError(fmt::format(
             "precision = \"mixed\" with particles of radius {:.3g} m (single precision has no room for squares of "

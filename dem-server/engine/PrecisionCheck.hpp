@@ -3,7 +3,6 @@
 #pragma once
 
 #include "core/Case.hpp"
-#include "exec/Execution.hpp"
 
 namespace gimdem
 {
@@ -12,7 +11,7 @@ namespace gimdem
 /// range: of a bead of this radius they are 1e-33 at least, and the range ends at 1e-38.
 inline constexpr double smallest_radius_in_single = 1e-5;
 
-/// Throws UserError for precision "mixed" with smaller particles, or where kernels in single precision are not there.
-void check_precision(Case const& settings, exec::Execution const& execution, double smallest_radius);
+/// Throws UserError for precision "mixed" with smaller particles.
+void check_precision(Case const& settings, double smallest_radius);
 
 }  // namespace gimdem

@@ -125,8 +125,8 @@ struct QuadsOfOctet
     static QuadsOfOctet difference(QuadsOfOctet const& a, QuadsOfOctet const& b)
     {
         using detail::all_but_w_negative;
-        return {a.q02 + all_but_w_negative(b.q02), a.q13 + all_but_w_negative(b.q13),
-                a.q46 + all_but_w_negative(b.q46), a.q57 + all_but_w_negative(b.q57)};
+        return {a.q02 + all_but_w_negative(b.q02), a.q13 + all_but_w_negative(b.q13), a.q46 + all_but_w_negative(b.q46),
+                a.q57 + all_but_w_negative(b.q57)};
     }
     OctetOfQuads transposed() const
     {
@@ -164,7 +164,10 @@ struct QuadsOfOctet
     void for_each(int count, Work const& work) const
     {
         [&]<int... lane>(std::integer_sequence<int, lane...>)
-        { ((lane < count && (work.template operator()<lane>(get<lane>()), true)) && ...); }(std::make_integer_sequence<int, octet>{});
+        {
+            ((lane < count && (work.template operator()<lane>(get<lane>()), true)) && ...);
+        }
+        (std::make_integer_sequence<int, octet>{});
     }
 };
 
@@ -195,8 +198,8 @@ inline OctetOfQuads load_sum(Quad const* values, std::int32_t const* a, std::int
 /// values[place[i]] <- lane i, in rising order of lanes.
 inline void store(OctetOfQuads const& from, Quad* values, std::int32_t const* place)
 {
-    QuadsOfOctet::of(from).for_each(octet, [=]<int lane>(detail::Four const& value)
-                                    { std::memcpy(&values[place[lane]], &value, sizeof value); });
+    QuadsOfOctet::of(from).for_each(
+        octet, [=]<int lane>(detail::Four const& value) { std::memcpy(&values[place[lane]], &value, sizeof value); });
 }
 /// Three numbers from `to` on <- the first three of four.
 inline void store_three(detail::Four const& from, double* to)
@@ -210,8 +213,7 @@ inline void store_three(detail::Four const& from, double* to)
 /// values[3 place[i]] and the two behind it <- x, y, z of lane i, in rising order of lanes.
 inline void store_threes(OctetOfQuads const& from, double* values, std::int32_t const* place)
 {
-    QuadsOfOctet::of(from).for_each(octet,
-                                    [=]<int lane>(detail::Four const& value)
+    QuadsOfOctet::of(from).for_each(octet, [=]<int lane>(detail::Four const& value)
                                     { store_three(value, values + 3 * static_cast<std::int64_t>(place[lane])); });
 }
 /// values[i] <- lane i.

@@ -86,8 +86,8 @@ inline Pack<double, 8> per_root_of_positive(Pack<double, 8> const& x)
     using Real = Pack<double, 8>;
     Real const y = {_mm512_rsqrt14_pd(x.v)};
     Real const h = minus_product(Real::Constant(1), Real(x * y), y);
-    Real const series = plus_product(
-        Real::Constant(0.5), plus_product(Real::Constant(0.375), Real::Constant(0.3125), h), h);
+    Real const series =
+        plus_product(Real::Constant(0.5), plus_product(Real::Constant(0.375), Real::Constant(0.3125), h), h);
     return plus_product(y, Real(y * h), series);
 }
 inline Pack<float, 16> per_root_of_positive(Pack<float, 16> const& x)

@@ -33,7 +33,8 @@ struct LoadKernel
         std::int64_t const first = o * exec::octet;
         std::int64_t const left = particles.count - first;
         int const count = left < exec::octet ? static_cast<int>(left) : exec::octet;
-        exec::OctetArray e = exec::OctetArray::Ones(), slip = exec::OctetArray::Zero(), diameter = exec::OctetArray::Ones();
+        exec::OctetArray e = exec::OctetArray::Ones(), slip = exec::OctetArray::Zero(),
+                         diameter = exec::OctetArray::Ones();
         for (int k = 0; k < count; ++k)
         {
             std::int64_t const p = first + k;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "exec/Vector.hpp"
 #include "exec/Octet.hpp"
+#include "exec/Vector.hpp"
 #include "exec/VectorMath.hpp"
 #include "mapping/GaussianIntegral.hpp"
 #include "mapping/GaussianTable.hpp"

@@ -119,8 +119,8 @@ private:
     double skin_;
     Domain domain_;
     SizeLevels levels_;
-    exec::Buffer<std::int32_t> cell_of_;
-    exec::Groups by_cell_;
+    exec::Buffer<std::int32_t> cell_of_;  ///< while a list is built; its memory is the border's afterwards
+    exec::Groups by_cell_;                ///< the same of its offsets; its members are the permutation
     exec::Room room_;
 };
 

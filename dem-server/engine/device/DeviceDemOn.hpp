@@ -38,7 +38,7 @@ public:
           host_walls_(scene.host_walls),
           laws_(device_, scene.materials),
           neighbors_(device_, scene.skin, Domain::of(scene.settings.domain), laws_.has_rolling_spring()),
-          contacts_(device_, Domain::of(scene.settings.domain)),
+          contacts_(device_, Domain::of(scene.settings.domain), scene.settings.dem.precision == "mixed"),
           walls_(device_, scene.walls, scene.host_walls, laws_.has_rolling_spring()),
           fluid_(device_)
     {

@@ -185,7 +185,7 @@ void DeviceWalls<Device>::find_forces(DeviceLaws<Device> const& laws, DevicePart
                                   offsets_.data(),
                                   touches_.data()};
     force_is_hosts_ = false;
-    laws.visit(
+    laws.template visit<double>(
         [&]<class Law>(typename Law::template Constants<double> const* constants)
         {
             device_.for_each_beside(

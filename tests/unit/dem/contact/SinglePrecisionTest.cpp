@@ -121,8 +121,7 @@ TEST(SinglePrecision, SixteenLanesGiveWhatDoubleGivesToSixDigits)
                         expect(get(out.force, lane), want.force, push);
                         expect(get(after.tangential, lane), alone.tangential,
                                length(alone.tangential) + 1e-5 * length(contact_of(100 * lane).velocity));
-                        if constexpr (Law::rolls)
-                            expect(get(out.rolling, lane), want.rolling, length(want.rolling));
+                        if constexpr (Law::rolls) expect(get(out.rolling, lane), want.rolling, length(want.rolling));
                     }
                 });
     }

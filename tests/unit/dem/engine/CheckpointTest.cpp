@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <string>
 
 #include "StlText.hpp"
 #include "TestCase.hpp"
@@ -325,7 +326,8 @@ TEST_F(CheckpointTest, OtherVersionsAndKindsAreRefused)
         other.set("checkpoint_version", gimdem::checkpoint_version + 1);
         other.commit();
     }
-    EXPECT_NE(refusal().find("has version " + std::to_string(gimdem::checkpoint_version + 1)), std::string::npos) << refusal();
+    EXPECT_NE(refusal().find("has version " + std::to_string(gimdem::checkpoint_version + 1)), std::string::npos)
+        << refusal();
     {
         gimdem::output::SnapshotWriter bed(file, "settled bed");
         bed.commit();
