@@ -80,7 +80,7 @@ template <class Law, bool one_size, class Real_>
 struct ContactBatch
 {
     using Real = Real_;
-    static constexpr int most = 64;
+    static constexpr int most = 128;
     static constexpr int room = most + 2 * exec::octet;
     using Numbers = Column<typename Real::Number, room>;
     using Vectors = VectorColumn<typename Real::Number, room>;

@@ -126,9 +126,9 @@ TEST(SinglePrecision, SixteenLanesGiveWhatDoubleGives)
                 });
     }
     figure("single_precision_worst_deviation_of_a_law", worst);
-    // Sixty operations of 6e-8 each are below 4e-6; a spring that leans out of the plane of contact loses ten times more
-    // when it is turned back, since only its part within the plane tells the direction. Below 1e-9 it would not have
-    // been single precision.
+    // Sixty operations of 6e-8 each are below 4e-6; a spring that leans out of the plane of contact loses ten times
+    // more when it is turned back, since only its part within the plane tells the direction. Below 1e-9 it would not
+    // have been single precision.
     EXPECT_GT(worst, 1e-9);
 }
 
