@@ -32,10 +32,9 @@ class Contest:
     warm_up: int
     steps: int
 
-    def setup(self, precision: str) -> Setup:
+    def setup(self, precision: str, threads: int = 1) -> Setup:
         arguments = ("--data", str(self.state), "--skin", f"{self.skin / bench_states.RADIUS:.6g}", *self.arguments)
-        return Setup(f"{self.name} settled" if self.name == "bed" else self.name, arguments, self.steps, self.warm_up,
-                     precision=precision)
+        return Setup(self.name, arguments, self.steps, self.warm_up, threads, precision)
 
 
 def contests(quick: bool) -> list[Contest]:
@@ -65,15 +64,16 @@ def run(names: Sequence[str], rounds: int, quick: bool, report: Report) -> None:
         for turn in range(rounds):
             say("bench", f"{contest.name} against others, round {turn + 1} of {rounds}")
             for precision in precisions():
-                setup = contest.setup(precision)
-                runs.setdefault(precision, []).append(report.add("peers", setup, measure(setup)))
+                for threads in (1, 2) if contest.name == "bed" else (1,):
+                    setup = contest.setup(precision, threads)
+                    name = precision if threads == 1 else f"{precision}, {threads} threads"
+                    runs.setdefault(name, []).append(report.add("peers", setup, measure(setup)))
             for name in names:
-                runs.setdefault(name, []).append(
-                    report.add("peers", contest.setup("double"), peer(name, contest)))
-        judge(contest, names, runs, report)
+                runs.setdefault(name, []).append(report.add("peers", contest.setup("double"), peer(name, contest)))
+        print_figures(contest, names, runs, report)
 
 
-def judge(contest: Contest, names: Sequence[str], runs: dict[str, list[Measured]], report: Report) -> None:
+def print_figures(contest: Contest, names: Sequence[str], runs: dict[str, list[Measured]], report: Report) -> None:
     for name, measured in runs.items():
         label = name if name in names else f"gimdem {name}"
         rates = [run.rate for run in measured]
@@ -81,12 +81,14 @@ def judge(contest: Contest, names: Sequence[str], runs: dict[str, list[Measured]
                       f"({min(rates):.4g} to {max(rates):.4g})")
         if contest.name == "gas":
             report.figure(f"gas_kinetic_energy_at_end[{label}]", measured[-1].energy, "J")
-    for name in names:
-        for precision in precisions():
-            parts = ["dem_vs", name] + (["gas"] if contest.name == "gas" else [])
-            if contest.name != "gas" or precision != "double":
-                parts.append(precision)
-            report.figure("_".join(parts), median_rate(runs[precision]) / median_rate(runs[name]), "1")
+    for precision in precisions():
+        end = "" if precision == "double" else f"_{precision}"
+        if contest.name == "bed":
+            two = median_rate(runs[f"{precision}, 2 threads"])
+            report.figure("dem_two_threads" + end, two / median_rate(runs[precision]), "1")
+        for name in names:
+            stem = f"dem_vs_{name}_gas{end}" if contest.name == "gas" else f"dem_vs_{name}_{precision}"
+            report.figure(stem, median_rate(runs[precision]) / median_rate(runs[name]), "1")
 
 
 def peer(name: str, contest: Contest) -> Measured:

@@ -38,7 +38,7 @@ def draw_growth(rows: Rows, folder: Path) -> Path | None:
         counts = sorted(line)
         axes.plot(counts, [statistics.median(line[n]) / 1e6 for n in counts], "o-", ms=3, label=f"{where}, {precision}")
     axes.set(xscale="log", xlabel="particles", ylabel="million particle-steps per second", ylim=(0, None),
-             title="bed at rest")
+             title="bed at rest, periodic to the sides")
     axes.legend()
     return saved(figure, folder / "growth.png")
 
@@ -60,7 +60,8 @@ def draw_peers(rows: Rows, folder: Path) -> Path | None:
     rates: dict[str, dict[str, list[float]]] = defaultdict(lambda: defaultdict(list))
     for row in rows:
         if row["part"] == "peers":
-            name = f"gimdem {row['precision']}" if row["program"] == "gimdem" else row["program"]
+            threads = "" if row["threads"] == "1" else f", {row['threads']} threads"
+            name = f"gimdem {row['precision']}{threads}" if row["program"] == "gimdem" else row["program"]
             rates[row["scene"]][name].append(float(row["particle_steps_per_second"]) / 1e6)
     if not rates:
         return None

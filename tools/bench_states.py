@@ -30,11 +30,11 @@ def settled_bed() -> Path:
                 "--box", *BED_BOX, "--warm-up", "27000")
 
 
-def relaxed_bed(law: tuple[str, ...]) -> Path:
+def relaxed_bed(options: tuple[str, ...]) -> Path:
     """The same bed at rest with other options of benchmark_dem."""
-    name = "-".join(word.strip("-") for word in law)
-    return made(f"bed-{name}.settled.data", f"letting the bed come to rest with {' '.join(law)}", "--box", *BED_BOX,
-                "--data", str(settled_bed()), *law, "--warm-up", "10000")
+    name = "-".join(word.strip("-") for word in options)
+    return made(f"bed-{name}.settled.data", f"letting the bed come to rest with {' '.join(options)}", "--box",
+                *BED_BOX, "--data", str(settled_bed()), *options, "--warm-up", "10000")
 
 
 def gas() -> Path:
