@@ -94,7 +94,8 @@ def print_figures(contest: Contest, names: Sequence[str], runs: dict[str, list[M
 def peer(name: str, contest: Contest) -> Measured:
     text = output([PEERS[name][0], "-in", str(ROOT / "tests" / "benchmarks" / "peers" / f"{contest.name}.{name}"),
                    "-log", "none", "-var", "data", str(contest.state), "-var", "skin", str(contest.peers_skin),
-                   "-var", "warm", str(contest.warm_up), "-var", "steps", str(contest.steps)])
+                   "-var", "warm", str(contest.warm_up), "-var", "steps", str(contest.steps)],
+                  bench_states.folder())  # they may leave files behind
     loops = [loop for loop in LOOP.finditer(text) if int(loop[2]) == contest.steps]
     if not loops:
         raise UserError(f"{PEERS[name][0]} tells no loop time (another version?); run it by hand with {contest.name}")

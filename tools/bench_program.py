@@ -8,6 +8,7 @@ import statistics
 import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from console import UserError, build_dir
 
@@ -87,8 +88,9 @@ def benchmark() -> str:
     return str(build_dir() / "bin" / "benchmark_dem")
 
 
-def output(command: Sequence[str]) -> str:
-    result = subprocess.run(command, capture_output=True, text=True)
+def output(command: Sequence[str], folder: Path | None = None) -> str:
+    """What a program prints; `folder`: where it runs."""
+    result = subprocess.run(command, capture_output=True, text=True, cwd=folder)
     if result.returncode != 0:
         last = (result.stdout + result.stderr).strip().splitlines()[-1:]
         raise UserError(f"{command[0]} failed ({' '.join(last)}); its command was {' '.join(command)}")

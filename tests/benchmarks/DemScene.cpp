@@ -19,7 +19,7 @@ namespace
 constexpr double diameter = 1.545e-3;  // [m]
 constexpr double cell = 2.25 * diameter;
 
-/// Constants of the optional laws are those of damp sand, so that a bed at rest stays about as it is.
+/// Constants of the optional laws are small, so that a bed at rest stays about as it is.
 Case case_of(SceneOptions const& options, std::array<double, 3> const& box)
 {
     Case settings = test::bead_case(options.restitution, options.friction);
