@@ -104,9 +104,10 @@ void DemSystem::drift(double dt)
         fluid_ == nullptr
             ? exec::maximum(execution_, particles_.count(), 0.0,
                             KickAndDrift<false>{{particles_.view(), nullptr, nullptr, gravity, h}, drift, built_at})
-            : exec::maximum(execution_, particles_.count(), 0.0,
-                            KickAndDrift<true>{
-                                {particles_.view(), loads_.view().data, impulses_.view().data, gravity, h}, drift, built_at});
+            : exec::maximum(
+                  execution_, particles_.count(), 0.0,
+                  KickAndDrift<true>{
+                      {particles_.view(), loads_.view().data, impulses_.view().data, gravity, h}, drift, built_at});
     // The test is NeighborSearch::is_stale()'s, which decides.
     if (4 * moved2 > search_.skin() * search_.skin() || wall_contacts_.is_stale(search_.skin())) update_neighbors();
 }
@@ -225,6 +226,11 @@ double largest_radius(Case const& settings, ParticleState const& particles)
     for (InletSettings const& inlet : settings.inlets)
         radius = std::max(radius, SizeDistribution(inlet.diameter, inlet.sizes).largest() / 2);
     return radius;
+}
+
+double reach_of(Case const& settings, ParticleState const& particles)
+{
+    return largest_radius(settings, particles) + settings.dem.skin * smallest_radius(settings, particles);
 }
 
 }  // namespace gimdem

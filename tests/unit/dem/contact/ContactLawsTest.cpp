@@ -146,7 +146,8 @@ TEST(ContactLaws, EightLanesGiveWhatEachGivesAlone)
                 }
                 auto same_for_all = springs, one_by_one = springs;
                 auto const out = Law::template apply<Octet>(constants, 1e-5, eight, same_for_all);
-                Law::template apply<Octet>(lanes_of<Law, Octet>(table.constants.view().data, rows), 1e-5, eight, one_by_one);
+                Law::template apply<Octet>(lanes_of<Law, Octet>(table.constants.view().data, rows), 1e-5, eight,
+                                           one_by_one);
                 for (int lane = 0; lane < exec::octet; ++lane)
                 {
                     ContactSprings<double> alone{get(springs.tangential, lane), get(springs.rolling, lane)};
