@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "app/DemLog.hpp"
 #include "app/Run.hpp"
@@ -13,7 +14,9 @@
 #include "engine/DomainBounds.hpp"
 #include "engine/InletFlow.hpp"
 #include "engine/StartChecks.hpp"
+#include "engine/WallBorderCheck.hpp"
 #include "engine/WallStartCheck.hpp"
+#include "engine/WallStepCheck.hpp"
 #include "mesh/BoxDomain.hpp"
 #include "particles/Insertion.hpp"
 
@@ -43,14 +46,15 @@ public:
           checkpoint_steps_(steps_of(settings.output.checkpoint_interval, dt_)),
           mesh_(box_mesh(settings.domain)),
           bounds_(settings.domain),
-          walls_(mesh_, settings.walls.also,
-                 largest_radius(settings, particles) + settings.dem.skin * smallest_radius(settings, particles),
-                 settings.wall),
+          walls_(mesh_, settings.walls.also, reach_of(settings, particles), settings.wall),
           inlets_(make_inlets(settings, materials)),
           system_(settings, exec::make_execution(settings.dem.backend, settings.dem.threads, settings.dem.sorting),
                   materials, walls_, std::move(particles))
     {
-        check_particles_against_walls(system_.particles(), walls_);
+        ParticleState const& start = std::as_const(system_).particles();
+        check_particles_against_walls(start, walls_);
+        check_wall_steps(settings, walls_, mesh_, smallest_radius(settings, start));
+        check_walls_in_periodic_box(settings.domain, walls_, reach_of(settings, start));
         system_.prepare();
         system_.begin_coupling_step(nullptr);
         system_.let_walls_move(true);

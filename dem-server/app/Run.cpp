@@ -16,6 +16,7 @@
 #include "engine/Settling.hpp"
 #include "engine/StartChecks.hpp"
 #include "engine/WallStartCheck.hpp"
+#include "engine/WallStepCheck.hpp"
 #include "gimdem/coupling/Server.hpp"
 #include "particles/Insertion.hpp"
 
@@ -94,12 +95,6 @@ void settle_or_load(Case const& settings, exec::Execution execution, WallGeometr
     read_state(file, "settled bed", system);
 }
 
-/// How far a particle's centre can be from a wall that it may soon touch [m].
-double reach_of(Case const& settings, ParticleState const& particles)
-{
-    return largest_radius(settings, particles) + settings.dem.skin * smallest_radius(settings, particles);
-}
-
 /// Everything after the mesh.
 class CoupledRun
 {
@@ -166,6 +161,7 @@ private:
     void settle()
     {
         check_particles_against_walls(system_.particles(), walls_);
+        check_wall_steps(settings_, walls_, mesh_, smallest_radius(settings_, std::as_const(system_).particles()));
         settle_or_load(settings_, execution_, walls_, mesh_, system_, log_.progress());
         Vec3 const up = upward(settings_);
         log_.summary().add("settled_height", bed_height(system_.particles(), mesh_, up), "m");

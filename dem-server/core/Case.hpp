@@ -191,7 +191,10 @@ struct FluidForceSettings
 /// [mapping]
 struct MappingSettings
 {
-    std::string method = "gim";
+    std::string method = "gim";          ///< one of mapping_method_names
+    std::int64_t points = 29;            ///< of method divided
+    double coefficient = 0.4;            ///< phi of method gim-fixed
+    double bandwidth = 2;                ///< b of methods kernel and diffusion, in particle diameters
     double void_fraction_minimum = 0.1;  ///< smaller values are clipped and counted
 };
 

@@ -3,6 +3,7 @@
 
 #include "core/CaseTable.hpp"
 #include "core/ContactLawNames.hpp"
+#include "core/MappingMethodNames.hpp"
 
 namespace gimdem
 {
@@ -249,8 +250,14 @@ Fields<MappingSettings> const& settings_of(MappingSettings const&)
 {
     using S = MappingSettings;
     static Fields<S> const fields = {
-        optional("method",                &S::method,                "", one_of({"gim"}), "\"gim\"",
-                 "gim: Gaussian Integral Method"),
+        optional("method",                &S::method,                "", one_of(words(mapping_method_names)), "\"exact\"",
+                 "who gets which part of a particle; theory.md, G, describes the methods"),
+        optional("points",                &S::points,                "", at_least(1), "29",
+                 "parts that method divided makes of a particle"),
+        optional("coefficient",           &S::coefficient,           "", between(0, 2), "0.4",
+                 "phi of method gim-fixed"),
+        optional("bandwidth",             &S::bandwidth,             "", above(0), "2.0",
+                 "b of methods kernel and diffusion, in particle diameters"),
         optional("void_fraction_minimum", &S::void_fraction_minimum, "", between(0, 1), "0.1",
                  "smaller void fractions are clipped to this and counted"),
     };

@@ -213,4 +213,9 @@ double largest_radius(Case const& settings, ParticleState const& particles)
     return radius;
 }
 
+double reach_of(Case const& settings, ParticleState const& particles)
+{
+    return largest_radius(settings, particles) + settings.dem.skin * smallest_radius(settings, particles);
+}
+
 }  // namespace gimdem

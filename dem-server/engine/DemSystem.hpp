@@ -164,4 +164,7 @@ double largest_radius(ParticleState const& particles);
 double smallest_radius(Case const& settings, ParticleState const& particles);
 double largest_radius(Case const& settings, ParticleState const& particles);
 
+/// How far a particle's centre can be from a wall that it may soon touch [m].
+double reach_of(Case const& settings, ParticleState const& particles);
+
 }  // namespace gimdem

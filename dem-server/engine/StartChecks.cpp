@@ -66,35 +66,41 @@ double shortest_linear_contact(Case const& settings, Materials const& materials,
 namespace
 {
 
-void check_against_linear_contact(Case const& settings, double contact)
+/// The time that a step must resolve, and the largest share of it.
+struct StepLimit
 {
-    double const share = settings.dem.time_step / contact;
-    if (share <= contact_share_limit) return;
-    throw UserError(fmt::format(
-        "[dem] time_step = {:.6g} s is {:.3g} % of the shortest contact, {:.6g} s (above {:.0f} % the contacts are not "
-        "resolved and the restitution is wrong); use at most {:.3g} s, better 2 to 5 % of the contact, or a smaller "
-        "normal_stiffness",
-        settings.dem.time_step, 100 * share, contact, 100 * contact_share_limit, contact_share_limit * contact));
+    char const* name;
+    double time;  ///< [s]
+    double share;
+    char const* otherwise;  ///< what goes wrong beyond
+    char const* advice;     ///< beside a smaller step
+};
+
+StepLimit limit_of(Case const& settings, Materials const& materials, ParticleState const& particles)
+{
+    if (settings.dem.contact_law == LinearSpringDashpot::name)
+        return {"shortest contact", shortest_linear_contact(settings, materials, particles), contact_share_limit,
+                "the restitution is wrong", "better 2 to 5 % of the contact, or a smaller normal_stiffness"};
+    double rayleigh = shortest_rayleigh_time(materials, particles);
+    for (InletSettings const& inlet : settings.inlets)
+        rayleigh =
+            std::min(rayleigh, materials.rayleigh_time(materials.number_of(inlet.material),
+                                                       SizeDistribution(inlet.diameter, inlet.sizes).smallest() / 2));
+    return {"Rayleigh time", rayleigh, rayleigh_share_limit, "energy is made", "or a smaller young_modulus"};
 }
 
 }  // namespace
 
 void check_time_step(Case const& settings, Materials const& materials, ParticleState const& particles)
 {
-    if (settings.dem.contact_law == LinearSpringDashpot::name)
-        return check_against_linear_contact(settings, shortest_linear_contact(settings, materials, particles));
-    double rayleigh = shortest_rayleigh_time(materials, particles);
-    for (InletSettings const& inlet : settings.inlets)
-        rayleigh =
-            std::min(rayleigh, materials.rayleigh_time(materials.number_of(inlet.material),
-                                                       SizeDistribution(inlet.diameter, inlet.sizes).smallest() / 2));
-    double const share = settings.dem.time_step / rayleigh;
-    if (share <= rayleigh_share_limit) return;
-    throw UserError(fmt::format(
-        "[dem] time_step = {:.6g} s is {:.3g} % of the Rayleigh time {:.6g} s (above {:.0f} % the "
-        "contacts are not resolved and energy is made); use at most {:.3g} s, or a smaller "
-        "young_modulus",
-        settings.dem.time_step, 100 * share, rayleigh, 100 * rayleigh_share_limit, rayleigh_share_limit * rayleigh));
+    StepLimit const limit = limit_of(settings, materials, particles);
+    double const share = settings.dem.time_step / limit.time;
+    if (share <= limit.share) return;
+    throw UserError(
+        fmt::format("[dem] time_step = {:.6g} s is {:.3g} % of the {}, {:.6g} s (above {:.0f} % the contacts are not "
+                    "resolved and {}); use at most {:.3g} s, {}",
+                    settings.dem.time_step, 100 * share, limit.name, limit.time, 100 * limit.share, limit.otherwise,
+                    limit.share * limit.time, limit.advice));
 }
 
 void check_overlaps(exec::Execution execution, ParticleState const& particles, Domain const& domain)

@@ -25,11 +25,11 @@ struct TabulatedIntegral
     double narrow;     ///< deviation of the narrower Gaussian [m]
     double crossing2;  ///< (mu / narrow)^2 where the two begin to cross: 4 (s^2 - 1) ln s
 
-    TabulatedIntegral(double radius, double volume)
+    TabulatedIntegral(double radius, double volume, double fixed_coefficient)
     {
         double const log_ratio = std::log(volume / sphere_volume(radius));
         double const log_s = std::abs(log_ratio) / 3;
-        integral = {radius, log_ratio, tuned_coefficient(log_ratio)};
+        integral = {radius, log_ratio, fixed_coefficient > 0 ? fixed_coefficient : tuned_coefficient(log_ratio)};
         narrow = integral.coefficient * radius * std::exp(std::min(0.0, log_ratio / 3));
         crossing2 = 4 * std::expm1(2 * log_s) * log_s;
     }
@@ -66,7 +66,7 @@ Eigen::Matrix<long double, terms, terms> interpolation()
 
 }  // namespace
 
-GaussianTables::GaussianTables(PolyMesh const& mesh)
+GaussianTables::GaussianTables(PolyMesh const& mesh, double fixed_coefficient) : fixed_coefficient_(fixed_coefficient)
 {
     volumes_.resize(static_cast<std::size_t>(mesh.cell_count()));
     for (std::int32_t c = 0; c < mesh.cell_count(); ++c)
@@ -115,7 +115,7 @@ void GaussianTables::add_row(double radius)
     for (std::int64_t c = 0; c < cells; ++c)
     {
         auto const k = static_cast<std::size_t>(class_of_[static_cast<std::size_t>(c)]);
-        TabulatedIntegral const pair(radius, volumes_[static_cast<std::size_t>(c)]);
+        TabulatedIntegral const pair(radius, volumes_[static_cast<std::size_t>(c)], fixed_coefficient_);
         double const h = interval[k];
         pairs_[row * cells + c] = {1 / (pair.narrow * pair.narrow * h * h), pair.crossing2 / (h * h),
                                    first_table + static_cast<std::int64_t>(k) * GaussianTableView::length};
@@ -125,7 +125,7 @@ void GaussianTables::add_row(double radius)
 double GaussianTables::add_table(double radius, double volume)
 {
     static auto const to_coefficients = interpolation();
-    TabulatedIntegral const pair(radius, volume);
+    TabulatedIntegral const pair(radius, volume, fixed_coefficient_);
     double const h = pair.end() / intervals;
     std::int64_t const place = coefficients_.size();
     coefficients_.resize(place + GaussianTableView::length);

@@ -83,7 +83,8 @@ public:
     /// Largest error of I / V_p against the closed form that a table may have.
     static constexpr double error_bound = 1e-11;
 
-    explicit GaussianTables(PolyMesh const& mesh);
+    /// fixed_coefficient: phi of all pairs; 0: that of Eq. 27.
+    explicit GaussianTables(PolyMesh const& mesh, double fixed_coefficient = 0);
 
     /// Sees to tables for all radii. False where there are none: the scene has too many radii and cell sizes, or a
     /// particle so nearly as large as a cell that its table would miss `error_bound`.
@@ -101,6 +102,7 @@ private:
     exec::Buffer<double> radii_;
     exec::Buffer<TabulatedPair> pairs_;
     exec::Buffer<double> coefficients_;
+    double fixed_coefficient_;
     bool usable_ = true;
 };
 

@@ -3,13 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "core/Error.hpp"
 #include "exec/ForEach.hpp"
 #include "mapping/LocateKernel.hpp"
-#include "mapping/WeightKernel.hpp"
 
 namespace gimdem
 {
@@ -79,23 +75,22 @@ struct TakeKernel
 
 }  // namespace
 
-Mapper::Mapper(exec::Execution execution, PolyMesh const& mesh)
-    : execution_(execution), mesh_(mesh), layers_(mesh), start_cells_(mesh), tables_(mesh)
+Mapper::Mapper(exec::Execution execution, PolyMesh const& mesh, MappingSettings const& settings)
+    : execution_(execution), mesh_(mesh), method_(make_method(settings, execution, mesh)), start_cells_(mesh)
 {
-    cell_sizes_.resize(mesh.cell_count());
-    for (std::int32_t c = 0; c < mesh.cell_count(); ++c)
-    {
-        double const radius = std::cbrt(3 / (4 * std::numbers::pi) * mesh.volume(c));
-        cell_sizes_[c] = {radius, std::log(radius), std::pow(radius, -3 * 0.132)};
-    }
+    find_reverse_slots();
+}
 
-    reverse_slot_.resize(layers_.cells.size());
-    for (std::int32_t c = 0; c < mesh.cell_count(); ++c)
-        for (std::int32_t k = layers_.offsets[c]; k < layers_.offsets[c + 1]; ++k)
+void Mapper::find_reverse_slots()
+{
+    CellRows const& layers = method_->candidates();
+    reverse_slot_.resize(layers.cells.size());
+    for (std::int32_t c = 0; c < mesh_.cell_count(); ++c)
+        for (std::int32_t k = layers.offsets[c]; k < layers.offsets[c + 1]; ++k)
         {
-            std::int32_t const other = layers_.cells[k];
+            std::int32_t const other = layers.cells[k];
             std::int32_t slot = 0;
-            while (layers_.cells[layers_.offsets[other] + slot] != c)
+            while (layers.cells[layers.offsets[other] + slot] != c)
                 ++slot;
             reverse_slot_[k] = slot;
         }
@@ -142,6 +137,7 @@ void Mapper::refuse_outside(ParticleState const& particles, std::int64_t particl
 // Consecutive rows for the particles of a cell, cell after cell.
 void Mapper::lay_out_rows()
 {
+    CellRows const& layers = method_->candidates();
     first_weight_.resize(mesh_.cell_count());
     first_share_.resize(mesh_.cell_count());
     occupied_.resize(mesh_.cell_count());
@@ -149,7 +145,7 @@ void Mapper::lay_out_rows()
     for (std::int32_t c = 0; c < mesh_.cell_count(); ++c)
     {
         std::int64_t const n_particles = by_cell_.offsets[c + 1] - by_cell_.offsets[c];
-        std::int64_t const length = layers_.offsets[c + 1] - layers_.offsets[c];
+        std::int64_t const length = layers.offsets[c + 1] - layers.offsets[c];
         first_weight_[c] = n_weights;
         first_share_[c] = n_particles > 0 ? n_shares : -1;
         n_weights += n_particles * length;
@@ -164,23 +160,16 @@ void Mapper::lay_out_rows()
 
 WeightRows Mapper::rows() const
 {
-    return {layers_.offsets.view().data, layers_.cells.view().data, by_cell_.offsets.view().data,
+    CellRows const& layers = method_->candidates();
+    return {layers.offsets.view().data, layers.cells.view().data, by_cell_.offsets.view().data,
             by_cell_.members.view().data, first_weight_.view().data};
 }
 
 void Mapper::compute_weights(ParticleState const& particles)
 {
+    if (method_->prepare(particles)) find_reverse_slots();
     lay_out_rows();
-    auto const compute = [&]<class Integrals>(typename Integrals::Source source)
-    {
-        exec::for_each_uneven(execution_, occupied_.size(),
-                              WeightKernel<Integrals>{occupied_.view().data, particles.position.view().data,
-                                                      mesh_.view().cell, rows(), source, weights_.view().data});
-    };
-    if (tables_.provide(particles))
-        compute.operator()<TabulatedIntegrals>(tables_.view());
-    else
-        compute.operator()<ClosedFormIntegrals>(cell_sizes_.view().data);
+    method_->compute_weights({execution_, particles, occupied_, rows(), weights_.view().data});
 }
 
 void Mapper::sum_into_cells(ParticleState const& particles, exec::Buffer<Impulse> const& impulses, CellSums& sums)
@@ -192,10 +181,11 @@ void Mapper::sum_into_cells(ParticleState const& particles, exec::Buffer<Impulse
                    shares_.view().data});
     sums.solid_volume.resize(mesh_.cell_count());
     sums.drag.resize(mesh_.cell_count());
-    exec::for_each(execution_, mesh_.cell_count(),
-                   TakeKernel{layers_.offsets.view().data, layers_.cells.view().data, reverse_slot_.view().data,
-                              first_share_.view().data, shares_.view().data, sums.solid_volume.view().data,
-                              sums.drag.view().data});
+    exec::for_each(
+        execution_, mesh_.cell_count(),
+        TakeKernel{rows().layer_offsets, rows().layer_cells, reverse_slot_.view().data, first_share_.view().data,
+                   shares_.view().data, sums.solid_volume.view().data, sums.drag.view().data});
+    method_->spread(sums);
 }
 
 void Mapper::permute(std::span<std::int32_t const> order)

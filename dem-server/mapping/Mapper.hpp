@@ -6,13 +6,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "exec/Buffer.hpp"
 #include "exec/Execution.hpp"
 #include "exec/Sort.hpp"
-#include "mapping/GaussianTable.hpp"
-#include "mapping/WeightKernel.hpp"
+#include "mapping/Method.hpp"
+#include "mapping/Share.hpp"
 #include "mesh/PointLocator.hpp"
 #include "mesh/PolyMesh.hpp"
 #include "particles/ParticleState.hpp"
@@ -20,33 +21,10 @@
 namespace gimdem
 {
 
-/// A part of one or more particles: what one cell receives.
-struct Share
-{
-    Quad drag;      ///< drag impulse [N s], w: of its coefficient [kg]
-    double volume;  ///< [m^3]
-
-    GIMDEM_HD void add(double weight, Share const& other)
-    {
-        drag.x += weight * other.drag.x;
-        drag.y += weight * other.drag.y;
-        drag.z += weight * other.drag.z;
-        drag.w += weight * other.drag.w;
-        volume += weight * other.volume;
-    }
-};
-
-/// Cell sums of one mapping.
-struct CellSums
-{
-    exec::Buffer<double> solid_volume;  ///< sum_p w_pi V_p [m^3]
-    exec::Buffer<Quad> drag;            ///< sum_p w_pi J_p with J the drag impulse [N s], w: of its coefficient [kg]
-};
-
 class Mapper
 {
 public:
-    Mapper(exec::Execution execution, PolyMesh const& mesh);
+    Mapper(exec::Execution execution, PolyMesh const& mesh, MappingSettings const& settings = {});
 
     /// Finds the cell of every particle, walking from the last one. `wall_faces`: shape=(n_faces,), 1 where a face
     /// stops particles. One that left the mesh through an open patch belongs to the last cell before it and is in
@@ -54,8 +32,7 @@ public:
     /// radius.
     void locate(ParticleState const& particles, exec::Buffer<std::uint8_t> const& wall_faces);
 
-    /// Weights of every particle by the Gaussian Integral Method with Eq. 27, both layers: from tables where the scene
-    /// has few radii and cell sizes.
+    /// Weights of every particle by the method of the settings.
     void compute_weights(ParticleState const& particles);
 
     /// Sums volumes and impulses into cells.
@@ -84,24 +61,22 @@ public:
     exec::Buffer<std::int32_t> const& cell_of() const { return cell_of_; }
     /// A row for each particle, cell after cell and in rising order within a cell: weights on layers() of its cell.
     exec::Buffer<double> const& weights() const { return weights_; }
-    CellLayers const& layers() const { return layers_; }
+    CellRows const& layers() const { return method_->candidates(); }
 
     // What a device needs to do the same.
     StartCells const& start_cells() const { return start_cells_; }
-    GaussianTables& tables() { return tables_; }
-    exec::Buffer<CellSize> const& cell_sizes() const { return cell_sizes_; }
+    Method& method() { return *method_; }
     exec::Buffer<std::int32_t> const& reverse_slot() const { return reverse_slot_; }
 
 private:
+    void find_reverse_slots();
     void lay_out_rows();
     WeightRows rows() const;
 
     exec::Execution execution_;
     PolyMesh const& mesh_;
-    CellLayers layers_;
+    std::unique_ptr<Method> method_;
     StartCells start_cells_;
-    GaussianTables tables_;
-    exec::Buffer<CellSize> cell_sizes_;
     /// For entry k of layers: place of the row's cell in the row of cells[k].
     exec::Buffer<std::int32_t> reverse_slot_;
     exec::Buffer<std::int32_t> cell_of_;

@@ -5,7 +5,9 @@
 
 #include <cstdint>
 
-#include "mapping/Mapper.hpp"
+#include "mapping/Share.hpp"
+#include "mapping/WeightKernel.hpp"
+#include "particles/ParticleState.hpp"
 
 namespace gimdem
 {

@@ -10,6 +10,7 @@
 #include "exec/VectorMath.hpp"
 #include "mapping/GaussianIntegral.hpp"
 #include "mapping/GaussianTable.hpp"
+#include "mapping/Method.hpp"
 
 namespace gimdem
 {
@@ -109,17 +110,25 @@ struct CellSize
     double tuning;      ///< radius^(-3 * 0.132): the cell's factor of Eq. 27
 };
 
+/// Of all cells, and the coefficient.
+struct CellSizes
+{
+    CellSize const* of_cell;
+    double fixed_coefficient;  ///< phi of all pairs; 0: that of Eq. 27
+};
+
 /// Shared integrals by the closed form (G.6), many candidates at a time.
 class ClosedFormIntegrals
 {
 public:
-    using Source = CellSize const*;
+    using Source = CellSizes;
 
-    ClosedFormIntegrals(Source cell_sizes, CandidateCentres const& at) : at_(at)
+    ClosedFormIntegrals(Source const& cell_sizes, CandidateCentres const& at)
+        : at_(at), fixed_coefficient_(cell_sizes.fixed_coefficient)
     {
         for (int k = 0; k < batch; ++k)
         {
-            CellSize const& size = cell_sizes[at.cells[k]];
+            CellSize const& size = cell_sizes.of_cell[at.cells[k]];
             radius_[k] = size.radius;
             log_cell_[k] = size.log_radius;
             factor_[k] = size.tuning;
@@ -133,8 +142,9 @@ public:
         exec::Lanes mu2;
         for (int k = 0; k < batch; ++k)
             mu2[k] = at_.distance2(k, particle);
-        ParticleAndCell<exec::Lanes> const pairs{particle.w, radius_ / particle.w, log_cell_ - log_radius,
-                                                 tuning * factor_};
+        exec::Lanes const coefficient = fixed_coefficient_ > 0 ? exec::Lanes(exec::Lanes::Constant(fixed_coefficient_))
+                                                               : exec::Lanes(tuning * factor_);
+        ParticleAndCell<exec::Lanes> const pairs{particle.w, radius_ / particle.w, log_cell_ - log_radius, coefficient};
         TailArguments<exec::Lanes> const arguments = pairs(mu2.sqrt());
         exec::Lanes tails[4];
         take_tails(arguments, tails);
@@ -171,19 +181,8 @@ private:
     }
 
     CandidateCentres const& at_;
+    double fixed_coefficient_;
     exec::Lanes radius_, log_cell_, factor_;
-};
-
-/// Rows of weights, one for each particle: the particles of a cell have consecutive rows as long as its candidates.
-struct WeightRows
-{
-    std::int32_t const* layer_offsets;
-    std::int32_t const* layer_cells;
-    std::int32_t const* particle_offsets;  ///< particles of cell c are members[particle_offsets[c] ...)
-    std::int32_t const* members;
-    std::int64_t const* first;  ///< place of the first weight of cell c
-
-    GIMDEM_HD int length(std::int32_t c) const { return layer_offsets[c + 1] - layer_offsets[c]; }
 };
 
 /// Weights of the particles of the i-th occupied cell.
@@ -216,19 +215,6 @@ struct WeightKernel
         }
         for (int m = 0; m < particle_count; ++m)
             normalise(first + m * length, length);
-    }
-
-private:
-    static void normalise(double* w, int length)
-    {
-        double total = 0;
-        for (int k = 0; k < length; ++k)
-            total += w[k];
-        // Cells so far away that every integral underflows: the own cell takes all.
-        if (!(total > 0)) w[0] = total = 1;
-        double const per_total = 1 / total;
-        for (int k = 0; k < length; ++k)
-            w[k] *= per_total;
     }
 };
 

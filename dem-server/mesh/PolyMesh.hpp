@@ -77,13 +77,18 @@ private:
     Vec3 low_, high_;
 };
 
-/// First and second layer of face neighbours, theory.md (G.9): for each cell the cell itself, then its face neighbours,
-/// then the face neighbours of those, each once. The relation is symmetric.
-struct CellLayers
+/// Cells that belong to each cell: the cell itself first, then others, each once. Symmetric: where j is in the row of
+/// i, i is in the row of j.
+struct CellRows
 {
     exec::Buffer<std::int32_t> offsets;  ///< shape=(n_cells + 1,)
     exec::Buffer<std::int32_t> cells;    ///< shape=(offsets.back(),)
+};
 
+/// First and second layer of face neighbours, theory.md (G.9): for each cell the cell itself, then its face neighbours,
+/// then the face neighbours of those.
+struct CellLayers : CellRows
+{
     explicit CellLayers(PolyMesh const& mesh);
 };
 

@@ -10,6 +10,7 @@
 #include "walls/StlFile.hpp"
 #include "walls/SurfaceCheck.hpp"
 #include "walls/SurfacePlanes.hpp"
+#include "walls/TriangleBins.hpp"
 
 namespace gimdem
 {
@@ -25,41 +26,6 @@ Vec3 vector(Triple const& t)
 Constant3 constant(Vec3 const& v)
 {
     return {v.x(), v.y(), v.z()};
-}
-
-struct Box
-{
-    Vec3 low, high;
-};
-
-Box box_of(WallTriangle const& t)
-{
-    Vec3 const a = t.a.xyz(), b = t.b.xyz(), c = t.c.xyz();
-    return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
-}
-
-/// Calls visit(cell) for the boxes of a grid within `reach` of a triangle: those that its bounding box covers, less
-/// those on either side of its plane.
-template <class Visit>
-void visit_cells(CellGrid const& grid, WallTriangle const& triangle, double reach, Visit&& visit)
-{
-    Box const box = box_of(triangle);
-    std::int32_t const first = grid.cell_of(box.low - Vec3::Constant(reach));
-    std::int32_t const last = grid.cell_of(box.high + Vec3::Constant(reach));
-    auto const x = [&](std::int32_t cell) { return cell % grid.nx; };
-    auto const y = [&](std::int32_t cell) { return cell / grid.nx % grid.ny; };
-    auto const z = [&](std::int32_t cell) { return cell / grid.nx / grid.ny; };
-    Vec3 const a = triangle.a.xyz();
-    Vec3 const normal = (triangle.b.xyz() - a).cross(triangle.c.xyz() - a).stableNormalized();
-    // A little more than half a box's diagonal, against rounding.
-    double const farthest = reach + 0.87 * grid.cell_size;
-    for (std::int32_t cz = z(first); cz <= z(last); ++cz)
-        for (std::int32_t cy = y(first); cy <= y(last); ++cy)
-            for (std::int32_t cx = x(first); cx <= x(last); ++cx)
-            {
-                Vec3 const centre = grid.origin.vec() + grid.cell_size * Vec3(cx + 0.5, cy + 0.5, cz + 0.5);
-                if (std::abs(normal.dot(centre - a)) <= farthest) visit((cz * grid.ny + cy) * grid.nx + cx);
-            }
 }
 
 }  // namespace
@@ -182,39 +148,18 @@ void WallGeometry::end_body()
 
 void WallGeometry::bin_triangles(WallBody& body, std::int64_t first_triangle)
 {
-    Box all = box_of(triangles_[first_triangle]);
-    double size = 0;
-    for (std::int64_t t = first_triangle; t < triangles_.size(); ++t)
-    {
-        Box const box = box_of(triangles_[t]);
-        all = {all.low.cwiseMin(box.low), all.high.cwiseMax(box.high)};
-        size += (box.high - box.low).maxCoeff() / static_cast<double>(triangles_.size() - first_triangle);
-    }
-    Vec3 const margin = Vec3::Constant(reach_);
-    body.low = constant(all.low - margin);
-    body.high = constant(all.high + margin);
-    // Boxes as large as what is within reach, but not much larger than triangles that are smaller than that.
-    double const box_size = std::clamp(size, reach_, 2 * reach_);
-    body.grid = CellGrid::over(body.low.vec(), body.high.vec(), box_size, 4'000'000);
-
-    std::int64_t const boxes = body.grid.count();
-    exec::Buffer<std::int32_t> offsets(boxes + 1);
-    offsets.fill(0);
-    auto const visit = [&](auto&& action)
-    {
-        for (std::int64_t t = first_triangle; t < triangles_.size(); ++t)
-            visit_cells(body.grid, triangles_[t], reach_,
-                        [&](std::int32_t cell) { action(cell, static_cast<std::int32_t>(t)); });
-    };
-    visit([&](std::int32_t cell, std::int32_t) { ++offsets[cell]; });
-    std::int64_t const members = exec::exclusive_scan(offsets.host());
-    auto const before = static_cast<std::int32_t>(grid_triangles_.size());
+    TriangleBins const bins(triangles_.host().subspan(static_cast<std::size_t>(first_triangle)), reach_);
+    body.low = constant(bins.low());
+    body.high = constant(bins.high());
+    body.grid = bins.grid();
     body.grid_begin = grid_offsets_.size();
-    grid_offsets_.resize(body.grid_begin + boxes + 1);
-    for (std::int64_t k = 0; k <= boxes; ++k)
-        grid_offsets_[body.grid_begin + k] = before + offsets[k];
-    grid_triangles_.resize(before + members);
-    visit([&](std::int32_t cell, std::int32_t t) { grid_triangles_[before + offsets[cell]++] = t; });
+    std::int64_t const before = grid_triangles_.size();
+    grid_offsets_.resize(body.grid_begin + std::ssize(bins.offsets()));
+    for (std::int64_t k = body.grid_begin; std::int32_t const offset : bins.offsets())
+        grid_offsets_[k++] = static_cast<std::int32_t>(before) + offset;
+    grid_triangles_.resize(before + std::ssize(bins.members()));
+    for (std::int64_t k = before; std::int32_t const triangle : bins.members())
+        grid_triangles_[k++] = static_cast<std::int32_t>(first_triangle) + triangle;
 }
 
 std::span<WallTriangle const> WallGeometry::triangles_of(std::int32_t body) const

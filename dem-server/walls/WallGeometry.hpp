@@ -38,6 +38,8 @@ public:
     WallView view() const;
 
     std::int32_t body_count() const { return static_cast<std::int32_t>(bodies_.size()); }
+    /// First body of the case file; one before it is the client's mesh.
+    std::int32_t first_item() const { return mesh_body_ + 1; }
     /// Material of a body; empty: that of [walls].
     std::string const& material(std::int32_t body) const { return materials_[static_cast<std::size_t>(body)]; }
     /// What messages call a body.

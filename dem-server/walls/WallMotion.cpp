@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "walls/WallMotion.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace gimdem
@@ -52,6 +54,34 @@ WallPose WallMotion::at(double time) const
     pose.spin = constant(speed_ * axis_);
     pose.centre = constant(origin_ + moved);
     return pose;
+}
+
+// A turning body sees the translation from all sides.
+double WallMotion::step_along(Vec3 const& n, Vec3 const& y, double dt) const
+{
+    bool const turns = speed_ != 0;
+    auto const part = [&](Vec3 const& d) { return turns ? d.norm() : std::abs(d.dot(n)); };
+    double const turning = std::abs(speed_ * axis_.cross(y - origin_).dot(n));
+    return (part(velocity_) + turning) * dt + std::min(2.0, std::abs(angular_frequency_) * dt) * part(stroke_);
+}
+
+std::array<double, 2> WallMotion::span_of_point(int axis, Vec3 const& y) const
+{
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    if (velocity_[axis] != 0) return {-endless, endless};
+    auto const [low, high] = span_of_direction(axis, y - origin_);
+    double const stroke = std::abs(stroke_[axis]);
+    return {origin_[axis] + low - stroke, origin_[axis] + high + stroke};
+}
+
+// What turns about an axis moves on a circle.
+std::array<double, 2> WallMotion::span_of_direction(int axis, Vec3 const& d) const
+{
+    if (speed_ == 0) return {d[axis], d[axis]};
+    double const along = axis_.dot(d);
+    double const centre = along * axis_[axis];
+    double const radius = (d - along * axis_).norm() * std::sqrt(std::max(0.0, 1 - axis_[axis] * axis_[axis]));
+    return {centre - radius, centre + radius};
 }
 
 }  // namespace gimdem

@@ -2,6 +2,8 @@
 /// Prescribed motion of a rigid wall, theory.md (D.50), (D.51).
 #pragma once
 
+#include <array>
+
 #include "core/Case.hpp"
 #include "exec/Vector.hpp"
 
@@ -39,6 +41,15 @@ public:
 
     bool moves() const { return moves_; }
     WallPose at(double time) const;  ///< [s]
+
+    /// How far, at most, the point y of the body goes along the unit vector n of the body within dt [s], (D.58) [m].
+    double step_along(Vec3 const& n, Vec3 const& y, double dt) const;
+
+    /// Smallest and largest coordinate along `axis` (0, 1, 2) that the point y of the body ever has [m]; infinite where
+    /// the wall goes on and on.
+    std::array<double, 2> span_of_point(int axis, Vec3 const& y) const;
+    /// The same of a direction of the body.
+    std::array<double, 2> span_of_direction(int axis, Vec3 const& d) const;
 
 private:
     bool moves_ = false;

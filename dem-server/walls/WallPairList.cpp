@@ -5,6 +5,8 @@
 
 #include "exec/ForEach.hpp"
 #include "exec/Sort.hpp"
+#include "walls/ApproachBound.hpp"
+#include "walls/PairDescriber.hpp"
 #include "walls/WallContacts.hpp"
 #include "walls/WallListKernels.hpp"
 
@@ -13,47 +15,6 @@ namespace gimdem
 
 namespace
 {
-
-/// Tells what the pairs of one particle are, once they are listed.
-struct PairDescriber
-{
-    WallView walls;
-    std::int32_t const* offsets;
-    std::int32_t const* plane;
-    std::uint8_t const* whole;
-    std::int32_t const* material;    ///< of each particle
-    std::int32_t const* first_pair;  ///< of each body: the row of its material
-    std::int32_t* particle;
-    std::int32_t* row;
-    std::uint8_t* alone;
-
-    GIMDEM_HD void operator()(std::int64_t i) const
-    {
-        bool const all_alone = are_alone(offsets[i], offsets[i + 1]);
-        for (std::int32_t k = offsets[i]; k < offsets[i + 1]; ++k)
-        {
-            particle[k] = static_cast<std::int32_t>(i);
-            row[k] = first_pair[walls.surfaces[plane[k]].body] + material[i];
-            alone[k] = all_alone;
-        }
-    }
-
-private:
-    /// Planes at rest that are touched inside or not at all, no two of one patch: none stands for another, and no
-    /// spring goes from one to another.
-    GIMDEM_HD bool are_alone(std::int32_t begin, std::int32_t end) const
-    {
-        for (std::int32_t k = begin; k < end; ++k)
-        {
-            WallSurface const& s = walls.surfaces[plane[k]];
-            if (whole[k] == 0 || s.kind == SurfaceKind::cylinder || s.two_sided || walls.bodies[s.body].moves)
-                return false;
-            for (std::int32_t m = begin; m < k; ++m)
-                if (walls.surfaces[plane[m]].patch == s.patch) return false;
-        }
-        return true;
-    }
-};
 
 /// What of the list before is needed for the springs, while a new one takes its place.
 struct OldWallPairs
@@ -88,81 +49,6 @@ private:
         std::copy_n(from.view().data, from.size(), to);
         return to;
     }
-};
-
-/// Calls visit(corner) for the eight corners of a box.
-template <class Visit>
-void visit_corners(Vec3 const& low, Vec3 const& high, Visit&& visit)
-{
-    for (int corner = 0; corner < 8; ++corner)
-        visit(Vec3((corner & 1) != 0 ? high.x() : low.x(), (corner & 2) != 0 ? high.y() : low.y(),
-                   (corner & 4) != 0 ? high.z() : low.z()));
-}
-
-/// How far a surface may have come nearer to any point of a box, between two poses [m], theory.md (D.56).
-class ApproachBound
-{
-public:
-    ApproachBound(WallPose const& then, WallPose const& now) : then_(then), now_(now) {}
-
-    /// Any surface within [low, high] of the body frame.
-    double of_box(Vec3 const& low, Vec3 const& high) const
-    {
-        double most = 0;
-        visit_corners(low, high,
-                      [&](Vec3 const& y) { most = std::max(most, (now_.to_space(y) - then_.to_space(y)).norm()); });
-        return most;
-    }
-
-    /// An infinite plane or a tube, near points of [low, high] in space.
-    double of(WallSurface const& s, Vec3 const& low, Vec3 const& high) const
-    {
-        return s.kind == SurfaceKind::plane ? of_plane(s, low, high) : of_tube(s, low, high);
-    }
-
-private:
-    /// The signed distance is affine in space: its change is largest in a corner.
-    double of_plane(WallSurface const& s, Vec3 const& low, Vec3 const& high) const
-    {
-        double most = 0;
-        visit_corners(low, high,
-                      [&](Vec3 const& x) {
-                          most = std::max(most, std::abs(s.normal.xyz().dot(now_.to_body(x)) -
-                                                         s.normal.xyz().dot(then_.to_body(x))));
-                      });
-        return most;
-    }
-
-    /// The axis, as far as the box sees it: motion along itself changes nothing, unless the tube has ends.
-    double of_tube(WallSurface const& s, Vec3 const& low, Vec3 const& high) const
-    {
-        Vec3 const axis = s.normal.xyz(), start = s.point.xyz();
-        double first = std::numeric_limits<double>::infinity(), last = -first;
-        visit_corners(low, high,
-                      [&](Vec3 const& x)
-                      {
-                          for (WallPose const* pose : {&then_, &now_})
-                          {
-                              double const along = axis.dot(pose->to_body(x) - start);
-                              first = std::min(first, along);
-                              last = std::max(last, along);
-                          }
-                      });
-        double most = 0;
-        for (double const along : {first, last})
-        {
-            Vec3 const moved = now_.to_space(start + along * axis) - then_.to_space(start + along * axis);
-            for (WallPose const* pose : {&then_, &now_})
-            {
-                Vec3 const a = pose->turn(axis);
-                most = std::max(most, s.endless ? (moved - moved.dot(a) * a).norm() : moved.norm());
-            }
-        }
-        return most;
-    }
-
-    WallPose const& then_;
-    WallPose const& now_;
 };
 
 }  // namespace

@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Time and memory of a DEM step of a bed of 1.545 mm beads in the box of cases/wachem-bed, no fluid.
-///
-///   benchmark_dem [--data FILE] [--write FILE] [--steps N] [--warm-up N] [--threads N] [--device cpu|cuda] [--dt S]
-///                 [--precision double|mixed] [--skin K] [--count N] [--box X Y Z]
-///
-/// FILE: particles in the format of LAMMPS (id type diameter density x y z, then Velocities), so that other programs
-/// can start from the same state; without it, a lattice that falls. Prints figures.
+/// Time and memory of a DEM step: a bed in the box of cases/wachem-bed without its fluid, a gas of beads, and scenes
+/// with one feature more or less. `./gimdem bench dem` calls it; --help tells the options. Prints figures.
 #include <fmt/format.h>
 #include <malloc.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
-#include <sstream>
+#include <optional>
 
-#include "BoxMesh.hpp"
-#include "TestCase.hpp"
+#include "DataFile.hpp"
+#include "DemScene.hpp"
+#include "Drag.hpp"
 #include "engine/DemSystem.hpp"
 #include "engine/device/DeviceDem.hpp"
-#include "particles/Insertion.hpp"
+#include "search/PairSprings.hpp"
 
 namespace
 {
@@ -51,87 +46,11 @@ using namespace gimdem;
 
 struct Options
 {
-    std::string data, write, device = "cpu", precision = "double";
-    int steps = 1000, warm_up = 500, threads = 1;
-    double dt = 2e-5, skin = 0.3;
-    std::int64_t count = 17'563;
-    std::vector<double> box{0.09, 0.008, 0.5};
+    benchmark::SceneOptions scene;
+    std::string write, device = "cpu";
+    int steps = 1000, warm_up = 500, rebuilds = 0, threads = 1;
+    double dt = 2e-5;
 };
-
-/// The lattice of cases/wachem-bed: what falls becomes an irregular bed.
-InsertionSettings lattice(std::vector<double> const& box, std::int64_t count)
-{
-    InsertionSettings lattice;
-    lattice.material = "bead";
-    lattice.diameter = 1.545e-3;
-    lattice.count = count;
-    lattice.box = {{{0, 0, 0}, {box[0], box[1], box[2]}}};
-    lattice.spacing = 1.65e-3;
-    lattice.jitter = 2e-5;
-    return lattice;
-}
-
-/// Sections "Atoms" and "Velocities" of a data file; throws for anything that cannot be read.
-std::vector<test::Sphere> read_data(std::string const& path)
-{
-    std::ifstream file(path);
-    if (!file) throw std::runtime_error("cannot read " + path);
-    std::vector<test::Sphere> spheres;
-    std::string line, section;
-    while (std::getline(file, line))
-    {
-        std::istringstream words(line);
-        std::string first;
-        if (!(words >> first)) continue;
-        if (first == "Atoms" || first == "Velocities")
-        {
-            section = first;
-            continue;
-        }
-        if (section.empty()) continue;
-        auto const id = std::stoul(first);
-        if (spheres.size() < id) spheres.resize(id);
-        test::Sphere& s = spheres[id - 1];
-        double type, diameter, density;
-        if (section == "Atoms")
-        {
-            words >> type >> diameter >> density >> s.position[0] >> s.position[1] >> s.position[2];
-            s.radius = diameter / 2;
-        }
-        else
-            for (Vec3* v : {&s.velocity, &s.angular_velocity})
-                words >> (*v)[0] >> (*v)[1] >> (*v)[2];
-        if (!words) throw std::runtime_error(path + ": cannot read \"" + line + "\"");
-    }
-    return spheres;
-}
-
-/// By rising id, as read_data() reads it.
-void write_data(std::string const& path, ParticleState const& p, std::vector<double> const& box)
-{
-    std::vector<std::int64_t> place(static_cast<std::size_t>(p.count()));
-    for (std::int64_t i = 0; i < p.count(); ++i)
-        place[static_cast<std::size_t>(p.id[i])] = i;
-    std::ofstream file(path);
-    file << fmt::format("settled bed\n\n{} atoms\n1 atom types\n\n", p.count());
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        file << fmt::format("0 {:.17g} {}lo {}hi\n", box[axis], "xyz"[axis], "xyz"[axis]);
-    file << "\nAtoms\n\n";
-    for (std::size_t k = 0; k < place.size(); ++k)
-    {
-        Quad const x = p.position[place[k]];
-        file << fmt::format("{} 1 {:.17g} 1150 {:.17g} {:.17g} {:.17g}\n", k + 1, 2 * x.w, x.x, x.y, x.z);
-    }
-    file << "\nVelocities\n\n";
-    for (std::size_t k = 0; k < place.size(); ++k)
-    {
-        Quad const v = p.velocity[place[k]], w = p.angular_velocity[place[k]];
-        file << fmt::format("{} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", k + 1, v.x, v.y, v.z, w.x, w.y,
-                            w.z);
-    }
-    file.flush();
-    if (!file) throw std::runtime_error("cannot write " + path);
-}
 
 double kinetic_energy(ParticleState const& p)
 {
@@ -141,52 +60,107 @@ double kinetic_energy(ParticleState const& p)
     return sum;
 }
 
+double count_contacts(NeighborList const& list)
+{
+    double sum = 0;
+    auto const touches = touches_of_pairs(list);
+    for (std::uint8_t const touch : touches.host())
+        sum += touch;
+    return sum;
+}
+
 /// Waits for a device to finish its steps.
 void finish(DemSystem& system)
 {
     if (DeviceDem* const device = system.device()) device->finish();
 }
 
-void run(Options const& options)
+/// Time of work() called `count` times [s].
+template <class Work>
+double seconds_of(int count, DemSystem& system, Work const& work)
 {
-    Case settings = test::bead_case(0.9, 0.3);
-    settings.dem.gravity = {0, 0, -9.81};
-    settings.dem.skin = options.skin;
-    settings.dem.precision = options.precision;
-    std::string const backend = options.device == "cuda" ? "cuda" : options.threads == 1 ? "serial" : "openmp";
-    exec::Execution const execution = exec::make_execution(backend, options.threads);
-    Materials const materials(settings);
-    PolyMesh const mesh(test::BoxMesh::make({1, 1, 1}, {options.box[0], options.box[1], options.box[2]}));
-    WallGeometry const walls(mesh, {"bottom"}, 0.9e-3);
-    settings.insertion = {lattice(options.box, options.count)};
-    std::size_t const before = peak = memory_in_use();
-    DemSystem system(
-        settings, execution, materials, walls,
-        options.data.empty() ? insert_particles(settings, materials) : test::particles_of(read_data(options.data)));
-    system.prepare();
-    system.begin_coupling_step(nullptr);
-    for (int s = 0; s < options.warm_up; ++s)
-        system.step(options.dt);
-
-    std::int64_t const rebuilds = system.rebuilds();
     finish(system);
     auto const start = std::chrono::steady_clock::now();
-    for (int s = 0; s < options.steps; ++s)
-        system.step(options.dt);
+    for (int k = 0; k < count; ++k)
+        work();
     finish(system);
-    double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void print_state(DemSystem const& system, std::size_t bytes, std::size_t peak_bytes)
+{
     auto const n = static_cast<double>(system.particles().count());
-    auto const bytes = static_cast<double>(memory_in_use() - before);
-    if (!options.write.empty()) write_data(options.write, system.particles(), options.box);
+    fmt::print("figure: dem_pairs_per_particle = {:.4g} [1]\n", double(system.neighbors().pair_count()) / n);
+    fmt::print("figure: dem_contacts_per_particle = {:.4g} [1]\n", count_contacts(system.neighbors()) / n);
+    fmt::print("figure: bytes_per_particle = {:.4g} [B]\n", static_cast<double>(bytes) / n);
+    fmt::print("figure: bytes_per_particle_peak = {:.4g} [B]\n", static_cast<double>(peak_bytes) / n);
+    fmt::print("figure: dem_kinetic_energy = {:.6g} [J]\n", kinetic_energy(system.particles()));
+}
+
+void run(Options const& options)
+{
+    benchmark::Scene const scene(options.scene);
+    std::string const backend = options.device == "cuda" ? "cuda" : options.threads == 1 ? "serial" : "openmp";
+    exec::Execution const execution = exec::make_execution(backend, options.threads);
+    Materials const materials(scene.settings);
+    std::size_t const before = peak = memory_in_use();
+    DemSystem system(scene.settings, execution, materials, scene.walls, scene.particles());
+    system.prepare();
+    std::optional<benchmark::Drag> drag;
+    if (options.scene.drag) drag.emplace(scene.settings, execution, scene.mesh, system);
+    system.begin_coupling_step(drag ? drag->fluid() : nullptr);
+    auto const step = [&] { system.step(options.dt); };
+    seconds_of(options.warm_up, system, step);
+
+    std::int64_t const rebuilds = system.rebuilds();
+    double const seconds = seconds_of(options.steps, system, step);
+    std::int64_t const rebuilt = system.rebuilds() - rebuilds;
+    std::size_t const bytes = memory_in_use() - before;
+    if (!options.write.empty()) benchmark::write_data(options.write, std::as_const(system).particles(), scene.box);
+    auto const n = static_cast<double>(scene.spheres.size());
     fmt::print("figure: dem_particles = {} [1]\n", n);
     fmt::print("figure: dem_threads = {} [1]\n", options.threads);
     fmt::print("figure: dem_ms_per_step = {:.4g} [ms]\n", 1e3 * seconds / options.steps);
     fmt::print("figure: dem_particle_steps_per_second = {:.4g} [1/s]\n", n * options.steps / seconds);
-    fmt::print("figure: dem_list_rebuilds = {} [1]\n", system.rebuilds() - rebuilds);
-    fmt::print("figure: dem_pairs_per_particle = {:.4g} [1]\n", double(system.neighbors().pair_count()) / n);
-    fmt::print("figure: bytes_per_particle = {:.4g} [B]\n", bytes / n);
-    fmt::print("figure: bytes_per_particle_peak = {:.4g} [B]\n", static_cast<double>(peak - before) / n);
-    fmt::print("figure: dem_kinetic_energy = {:.6g} [J]\n", kinetic_energy(system.particles()));
+    fmt::print("figure: dem_list_rebuilds = {} [1]\n", rebuilt);
+    print_state(system, bytes, peak - before);
+    if (options.rebuilds == 0) return;
+    double const of_lists = seconds_of(options.rebuilds, system, [&] { system.rebuild(); });
+    fmt::print("figure: dem_ms_per_rebuild = {:.4g} [ms]\n", 1e3 * of_lists / options.rebuilds);
+}
+
+void add_options(CLI::App& app, Options& options)
+{
+    benchmark::SceneOptions& scene = options.scene;
+    app.add_option("--data", scene.data, "initial state, a data file of LAMMPS");
+    app.add_option("--write", options.write, "keep the last state");
+    app.add_option("--steps", options.steps, "timed steps");
+    app.add_option("--warm-up", options.warm_up, "steps before");
+    app.add_option("--rebuilds", options.rebuilds, "timed buildings of the list, with forces, after the steps");
+    app.add_option("--threads", options.threads, "threads");
+    app.add_option("--device", options.device, "where the particles are")->check(CLI::IsMember({"cpu", "cuda"}));
+    app.add_option("--precision", scene.precision, "of the contact laws")->check(CLI::IsMember({"double", "mixed"}));
+    app.add_option("--dt", options.dt, "time step [s]");
+    app.add_option("--start", scene.start, "without --data")->check(CLI::IsMember({"lattice", "random"}));
+    app.add_option("--count", scene.count, "particles of the start");
+    app.add_option("--box", scene.box, "sides of the box [m]")->expected(3);
+    app.add_option("--tiles", scene.tiles, "copies of state and box along x and y")->expected(2);
+    app.add_option("--spacing", scene.spacing, "of the lattice [m]");
+    app.add_option("--jitter", scene.jitter, "of the lattice [m]");
+    app.add_option("--speed", scene.speed, "deviation of random velocities to begin with [m/s]");
+    app.add_option("--sides", scene.sides, "walls but for the top, all walls, x and y periodic, all periodic, none")
+        ->check(CLI::IsMember({"walls", "closed", "floor", "periodic", "none"}));
+    app.add_option("--gravity", scene.gravity, "[m/s^2]");
+    app.add_option("--law", scene.law, "contact_law of a case file");
+    app.add_option("--rolling", scene.rolling, "rolling_friction of a case file");
+    app.add_option("--cohesion", scene.cohesion, "cohesion of a case file");
+    app.add_option("--restitution", scene.restitution, "of all contacts");
+    app.add_option("--friction", scene.friction, "of all contacts");
+    app.add_option("--materials", scene.materials, "kinds of particles, all with the same constants");
+    app.add_option("--size-step", scene.size_step, "every second particle is smaller by this share");
+    app.add_option("--size-ratio", scene.size_ratio, "largest to smallest diameter of a random start");
+    app.add_option("--skin", scene.skin, "of the neighbour list, in smallest radii");
+    app.add_flag("--drag", scene.drag, "drag by air at rest");
 }
 
 }  // namespace
@@ -195,20 +169,12 @@ int main(int argc, char** argv)
 {
     Options options;
     CLI::App app("Time of a DEM step");
-    app.add_option("--data", options.data, "initial state");
-    app.add_option("--write", options.write, "keep the last state");
-    app.add_option("--steps", options.steps, "timed steps");
-    app.add_option("--warm-up", options.warm_up, "steps before");
-    app.add_option("--threads", options.threads, "threads");
-    app.add_option("--device", options.device, "where the particles are")->check(CLI::IsMember({"cpu", "cuda"}));
-    app.add_option("--precision", options.precision, "of the contact laws")->check(CLI::IsMember({"double", "mixed"}));
-    app.add_option("--dt", options.dt, "time step [s]");
-    app.add_option("--skin", options.skin, "of the neighbour list, in radii");
-    app.add_option("--count", options.count, "particles of the lattice");
-    app.add_option("--box", options.box, "sides of the box [m]")->expected(3);
+    add_options(app, options);
     CLI11_PARSE(app, argc, argv);
     try
     {
+        if (options.scene.drag && options.device == "cuda")
+            throw std::runtime_error("--drag is for the processor alone");
         run(options);
     }
     catch (std::exception const& error)

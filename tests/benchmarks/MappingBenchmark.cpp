@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Time of the mapping's parts for 17,563 particles on Grid B of cases/wachem-bed, on one thread.
+/// Time of the mapping's parts for 17,563 particles on Grid B of cases/wachem-bed, and of the weights of each method on
+/// cubic cells at a/dp = 1.76, on one thread.
 #include <benchmark/benchmark.h>
 
 #include <fmt/format.h>
 
 #include "BoxMesh.hpp"
 #include "TestCase.hpp"
+#include "core/MappingMethodNames.hpp"
 #include "mapping/Mapper.hpp"
 
 namespace
@@ -74,4 +76,49 @@ BENCHMARK_CAPTURE(time_per_particle, weights_from_tables, radius, weights)->Unit
 BENCHMARK_CAPTURE(time_per_particle, weights_closed_form, 1.01 * radius, weights)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(time_per_particle, sums, radius, sums)->Unit(benchmark::kMillisecond);
 
-BENCHMARK_MAIN();
+namespace
+{
+
+/// 10,000 particles among 20^3 cubic cells of the edge a.
+struct CubicCells
+{
+    explicit CubicCells(std::string_view method)
+        : particles(test::particles_of(test::random_spheres(10'000, {0, 0, 0}, {20, 20, 20}, 0.5 / 1.76, 0.5 / 1.76)))
+    {
+        MappingSettings settings;
+        settings.method = method;
+        mapper = std::make_unique<Mapper>(test::serial, mesh, settings);
+        exec::Buffer<std::uint8_t> wall_faces(mesh.face_count());
+        wall_faces.fill(1);
+        mapper->locate(particles, wall_faces);
+        mapper->compute_weights(particles);
+    }
+
+    PolyMesh mesh{test::BoxMesh::make({20, 20, 20}, {20, 20, 20})};
+    ParticleState particles;
+    std::unique_ptr<Mapper> mapper;
+};
+
+void time_method(benchmark::State& state, std::string const& method)
+{
+    CubicCells cells(method);
+    for (auto _ : state)
+        cells.mapper->compute_weights(cells.particles);
+    std::string name = method + "_us_per_particle";
+    std::ranges::replace(name, '-', '_');
+    state.counters[name] =
+        benchmark::Counter(1e-6 * double(cells.particles.count()),
+                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    for (std::string_view const method : mapping_method_names)
+        benchmark::RegisterBenchmark(fmt::format("method/{}", method).c_str(), time_method, std::string(method))
+            ->Unit(benchmark::kMillisecond);
+    benchmark::Initialize(&argc, argv);
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

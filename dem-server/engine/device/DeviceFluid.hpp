@@ -12,6 +12,7 @@
 #include "forces/LoadLaw.hpp"
 #include "mapping/LocateKernel.hpp"
 #include "mapping/PairwiseWeights.hpp"
+#include "mapping/methods/GaussianMethod.hpp"
 
 namespace gimdem
 {

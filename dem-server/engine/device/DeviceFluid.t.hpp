@@ -10,6 +10,12 @@
 namespace gimdem
 {
 
+/// The only method that devices have: CoupledEngine refuses the others.
+inline GaussianMethod& gaussian_of(FluidScene const& scene)
+{
+    return static_cast<GaussianMethod&>(scene.mapper.method());
+}
+
 struct SteadyForceOf
 {
     FluidLoad const* loads;
@@ -43,9 +49,9 @@ void DeviceMesh<Device>::upload(Device& device, FluidScene const& scene)
     offsets_.upload(device, {from.cell_offsets, cells + 1});
     cell_faces_.upload(device, {from.cell_faces, static_cast<std::size_t>(from.cell_offsets[cells])});
     wall_faces_.upload(device, scene.wall_faces);
-    cell_sizes_.upload(device, scene.mapper.cell_sizes());
+    cell_sizes_.upload(device, gaussian_of(scene).cell_sizes());
 
-    CellLayers const& layers = scene.mapper.layers();
+    CellRows const& layers = scene.mapper.layers();
     layer_offsets_.upload(device, layers.offsets);
     layer_cells_.upload(device, layers.cells);
     reverse_slot_.upload(device, scene.mapper.reverse_slot());
@@ -85,7 +91,7 @@ template <class Device>
 void DeviceFluid<Device>::take_sizes(ParticleState const& particles)
 {
     if (scene_ == nullptr) return;
-    GaussianTables& tables = scene_->mapper.tables();
+    GaussianTables& tables = gaussian_of(*scene_).tables();
     has_tables_ = tables.provide(particles);
     if (!has_tables_) return;
     table_shape_ = tables.view();

@@ -176,6 +176,21 @@ TEST_P(DeviceFluidTest, LosesParticlesThroughTheOpenTopAsTheHostDoes)
     expect_same_within(std::as_const(host.system), std::as_const(there.system), 1e-8);
 }
 
+TEST_P(DeviceFluidTest, RefusesWaysOfMappingThatItDoesNotHave)
+{
+    Case settings = CoupledScene::made();
+    settings.mapping.method = "exact";
+    try
+    {
+        CoupledScene const scene(GetParam(), 1, settings);
+        FAIL() << "a device has gim alone";
+    }
+    catch (UserError const& error)
+    {
+        EXPECT_NE(std::string(error.what()).find("\"exact\" does not run on a GPU"), std::string::npos) << error.what();
+    }
+}
+
 TEST_P(DeviceFluidTest, NamesTheParticleThatLeftTheMesh)
 {
     CoupledScene scene(GetParam(), 1);
