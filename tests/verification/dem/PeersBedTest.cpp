@@ -48,7 +48,8 @@ TEST_P(PeersBedIn, FallsAndSettlesLikeTheirs)
     EXPECT_LT(rest.kinetic_energy, 1e-8);
     EXPECT_NEAR(rest.twice_mean_height, 0.0740, 0.0002);
     EXPECT_NEAR(rest.coordination, 5.835, 0.035);
-    // 0.0247 to 0.0252 with the digits that they are given by: LAMMPS itself ends at 0.02466, as we do in single precision.
+    // 0.0247 to 0.0252 with the digits that they are given by: LAMMPS itself ends at 0.02466, as we do in single
+    // precision.
     EXPECT_NEAR(rest.mean_overlap, 0.02495, 0.0003);
     EXPECT_NEAR(rest.solid_fraction, 0.6404, 0.003);
 }
