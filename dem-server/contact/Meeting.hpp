@@ -75,7 +75,7 @@ GIMDEM_HD Encounter<Real> encounter_in(MovingSphere<double> const& a, MovingSphe
 }
 
 /// r_a + r_b - distance [m]. In single precision the difference of two lengths would have lost the digits of a small
-/// overlap; it comes from the difference of their squares, taken in double, (D.42).
+/// overlap; it comes from the difference of their squares, taken in double, (D.91).
 template <class Real>
 GIMDEM_HD Real overlap_of(Encounter<Real> const& met, Real const& reach, Real const& per_distance)
 {

@@ -44,7 +44,7 @@ struct PairForce
     QuadOf<Real> turn;   ///< tangential force x normal [N]; w: lever of the second [m]
 };
 
-/// Force of pair k; its springs go one step on. Real: double, or exec::Single for the law alone, theory.md (D.42);
+/// Force of pair k; its springs go one step on. Real: double, or exec::Single for the law alone, theory.md (D.91);
 /// springs are double.
 template <class Law, class Space, class Real>
 struct PairForceKernel

@@ -9,6 +9,7 @@
 #include "TestCase.hpp"
 #include "core/Error.hpp"
 #include "mapping/GaussianIntegral.hpp"
+#include "mapping/GaussianTable.hpp"
 
 namespace
 {

@@ -11,6 +11,7 @@
 #include "core/Error.hpp"
 #include "core/MappingMethodNames.hpp"
 #include "mapping/GaussianIntegral.hpp"
+#include "mapping/GaussianTable.hpp"
 #include "mapping/Mapper.hpp"
 #include "mapping/overlap/CellOverlap.hpp"
 
