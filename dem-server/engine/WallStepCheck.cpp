@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/Error.hpp"
 #include "walls/BoxCorners.hpp"
@@ -61,14 +60,12 @@ private:
     double of_tube(WallSurface const& s) const
     {
         Vec3 const axis = s.normal.xyz(), start = s.point.xyz();
-        Vec3 const across = axis.unitOrthogonal(), other = axis.cross(across);
         double most = 0;
         visit_corners(mesh_.low(), mesh_.high(),
                       [&](Vec3 const& x)
                       {
                           Vec3 const y = start + axis.dot(x - start) * axis;
-                          most = std::max(
-                              most, std::hypot(motion_.step_along(across, y, dt_), motion_.step_along(other, y, dt_)));
+                          most = std::max(most, motion_.step_across(axis, y, dt_));
                       });
         return most;
     }

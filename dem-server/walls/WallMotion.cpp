@@ -57,12 +57,22 @@ WallPose WallMotion::at(double time) const
 }
 
 // A turning body sees the translation from all sides.
+template <class Part>
+double WallMotion::step(Vec3 const& y, double dt, Part part) const
+{
+    auto const seen = [&](Vec3 const& d) { return speed_ != 0 ? d.norm() : part(d); };
+    double const turning = std::abs(speed_) * part(axis_.cross(y - origin_));
+    return (seen(velocity_) + turning) * dt + std::min(2.0, std::abs(angular_frequency_) * dt) * seen(stroke_);
+}
+
 double WallMotion::step_along(Vec3 const& n, Vec3 const& y, double dt) const
 {
-    bool const turns = speed_ != 0;
-    auto const part = [&](Vec3 const& d) { return turns ? d.norm() : std::abs(d.dot(n)); };
-    double const turning = std::abs(speed_ * axis_.cross(y - origin_).dot(n));
-    return (part(velocity_) + turning) * dt + std::min(2.0, std::abs(angular_frequency_) * dt) * part(stroke_);
+    return step(y, dt, [&](Vec3 const& d) { return std::abs(d.dot(n)); });
+}
+
+double WallMotion::step_across(Vec3 const& axis, Vec3 const& y, double dt) const
+{
+    return step(y, dt, [&](Vec3 const& d) { return (d - d.dot(axis) * axis).norm(); });
 }
 
 std::array<double, 2> WallMotion::span_of_point(int axis, Vec3 const& y) const

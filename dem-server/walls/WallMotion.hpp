@@ -44,6 +44,8 @@ public:
 
     /// How far, at most, the point y of the body goes along the unit vector n of the body within dt [s], (D.58) [m].
     double step_along(Vec3 const& n, Vec3 const& y, double dt) const;
+    /// The same across the unit vector `axis` of the body, whatever the direction.
+    double step_across(Vec3 const& axis, Vec3 const& y, double dt) const;
 
     /// Smallest and largest coordinate along `axis` (0, 1, 2) that the point y of the body ever has [m]; infinite where
     /// the wall goes on and on.
@@ -52,6 +54,9 @@ public:
     std::array<double, 2> span_of_direction(int axis, Vec3 const& d) const;
 
 private:
+    template <class Part>
+    double step(Vec3 const& y, double dt, Part part) const;
+
     bool moves_ = false;
     Vec3 velocity_ = Vec3::Zero();                       ///< [m/s]
     Vec3 axis_ = Vec3::UnitZ(), origin_ = Vec3::Zero();  ///< of the rotation

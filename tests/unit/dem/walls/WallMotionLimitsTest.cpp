@@ -94,6 +94,9 @@ TEST(WallStep, OfATubeIsThatAcrossIt)
     EXPECT_EQ(step_complaint(tube), "fine");
     tube.velocity = {0.8 * fastest, 5 * fastest, 0.8 * fastest};
     EXPECT_THAT(step_complaint(tube), HasSubstr("moves 0.00566 m"));  // sqrt(2) 0.8
+    tube.rotation = {{0, 1, 0}, {0, 0, 0}, 1};
+    tube.velocity = {1.2 * fastest, 0, 0};
+    EXPECT_THAT(step_complaint(tube), HasSubstr("moves 0.006 m"));
 }
 
 TEST(WallStep, OfTrianglesIsThatOfTheFastestCornerAlongItsNormal)
