@@ -54,6 +54,10 @@ std::string description(Case const& settings)
             add(c.normal_stiffness, c.tangential_stiffness_ratio, c.rolling_friction, c.rolling_damping,
                 c.cohesion_energy_density);
     }
+    // Only where they are not as ever, so that beds that settled before they were there are still known.
+    if (laws.precision != "double") add(laws.precision);
+    for (ContactSettings const& c : settings.contacts)
+        if (c.limit_damping || !c.tangential_damping) add(c.pair[0], c.pair[1], c.limit_damping, c.tangential_damping);
     if (Domain::of(settings.domain).is_periodic())
         for (std::size_t axis = 0; axis < 3; ++axis)
             add(settings.domain.periodic[axis], settings.domain.box[0][axis], settings.domain.box[1][axis]);
