@@ -46,21 +46,19 @@ double damping_ratio(double restitution)
 double restitution_without_attraction(double damping_ratio, Stiffening stiffening)
 {
     // Elastic contacts last pi and 3.2; steps grow from the start, where the dashpot of Hertz has no derivative.
-    constexpr int steps = 2000;
-    constexpr double first = 1e-9, last = 4e-3;
+    constexpr double first = 1e-9, last = 4e-3, longest = 800;
     double const damping = (stiffening == Stiffening::hertz ? std::sqrt(5.0) : 2.0) * damping_ratio;
     Motion at{0, 1};
+    double before = force(at, damping, stiffening);
     double h = first;
-    for (int k = 0; k < 100 * steps; ++k, h = std::fmin(1.1 * h, last))
+    for (double t = 0; t < longest; t += h, h = std::fmin(1.1 * h, last))
     {
         Motion const next = advance(at, h, damping, stiffening);
-        if (next.speed < 0 && force(next, damping, stiffening) >= 0)
-        {
-            // The force ends within this step, and with it the change of speed, which is of second order here.
-            double const before = force(at, damping, stiffening), after = force(next, damping, stiffening);
-            return -advance(at, h * before / (before - after), damping, stiffening).speed;
-        }
+        double const after = force(next, damping, stiffening);
+        // The force ends within this step, and with it the change of speed, which is of second order here.
+        if (next.speed < 0 && after >= 0) return -advance(at, h * before / (before - after), damping, stiffening).speed;
         at = next;
+        before = after;
     }
     return 0;  // overdamped beyond any use
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "ContactScene.hpp"
+#include "LawScenes.hpp"
 #include "contact/ContactModel.hpp"
 #include "core/Error.hpp"
 #include "engine/Settling.hpp"
@@ -17,33 +18,6 @@ namespace
 using namespace gimdem;
 using namespace gimdem::test;
 using exec::Octet;
-
-/// Every choice of laws, with a value for all that one of them may need.
-std::vector<Case> all_laws()
-{
-    std::vector<Case> cases;
-    for (auto const force : force_law_names)
-        for (auto const rolling : rolling_law_names)
-            for (auto const cohesion : cohesion_law_names)
-            {
-                Case settings = bead_case(0.6, 0.3);
-                settings.dem.gravity = {0, 0, -9.81};
-                settings.dem.contact_law = force;
-                settings.dem.rolling_friction = rolling;
-                settings.dem.cohesion = cohesion;
-                settings.contacts[0].normal_stiffness = 50;
-                settings.contacts[0].rolling_friction = 0.2;
-                settings.contacts[0].rolling_damping = 0.3;
-                settings.contacts[0].cohesion_energy_density = 1000;
-                cases.push_back(settings);
-            }
-    return cases;
-}
-
-std::string name_of(Case const& settings)
-{
-    return settings.dem.contact_law + ' ' + settings.dem.rolling_friction + ' ' + settings.dem.cohesion;
-}
 
 std::vector<Sphere> layers()
 {
@@ -66,32 +40,6 @@ bool same_bits(DemSystem const& a, DemSystem const& b)
     return same(a.particles().id, b.particles().id) && same(a.particles().position, b.particles().position) &&
            same(a.particles().velocity, b.particles().velocity) &&
            same(a.particles().angular_velocity, b.particles().angular_velocity);
-}
-
-/// A number in [-1, 1] that looks random.
-double noise(int n)
-{
-    return std::sin(12.9898 * n + 78.233 * std::cos(4.1 * n));
-}
-
-Vector3<double> noisy(int n, double size)
-{
-    return {size * noise(n), size * noise(n + 1), size * noise(n + 2)};
-}
-
-ContactGeometry<double> contact_of(int lane)
-{
-    int const n = 100 * lane;
-    Vector3<double> normal = noisy(n, 1);
-    normal = (1 / std::sqrt(normal.dot(normal))) * normal;
-    return {.normal = normal,
-            .overlap = 1e-5 * (1.1 + noise(n + 10)),
-            .velocity = noisy(n + 20, 0.1),
-            .radius_eff = 1e-3 * (1.5 + noise(n + 30)),
-            .mass_eff = 1e-6 * (1.5 + noise(n + 31)),
-            .spin = noisy(n + 40, 30),
-            .inverse_inertia = 1e12 * (1.5 + noise(n + 50)),
-            .per_distance = 400};
 }
 
 double& lane_of(Octet& values, int lane)
@@ -120,7 +68,7 @@ TEST(ContactLaws, EightLanesGiveWhatEachGivesAlone)
 {
     for (Case const& settings : all_laws())
     {
-        SCOPED_TRACE(name_of(settings));
+        SCOPED_TRACE(name_of_laws(settings));
         Materials const materials(settings);
         ContactModel(materials).visit(
             [&]<class Law>(LawTable<Law> const& table)
@@ -131,7 +79,7 @@ TEST(ContactLaws, EightLanesGiveWhatEachGivesAlone)
                 ContactSprings<Octet> springs;
                 for (int lane = 0; lane < exec::octet; ++lane)
                 {
-                    auto const one = contact_of(lane);
+                    auto const one = contact_of(100 * lane);
                     put(eight.normal, one.normal, lane);
                     put(eight.velocity, one.velocity, lane);
                     put(eight.spin, one.spin, lane);
@@ -151,7 +99,7 @@ TEST(ContactLaws, EightLanesGiveWhatEachGivesAlone)
                 for (int lane = 0; lane < exec::octet; ++lane)
                 {
                     ContactSprings<double> alone{get(springs.tangential, lane), get(springs.rolling, lane)};
-                    auto const expected = Law::template apply<double>(constants, 1e-5, contact_of(lane), alone);
+                    auto const expected = Law::template apply<double>(constants, 1e-5, contact_of(100 * lane), alone);
                     expect_equal(get(out.force, lane), expected.force);
                     expect_equal(get(same_for_all.tangential, lane), alone.tangential);
                     expect_equal(get(one_by_one.tangential, lane), alone.tangential);
@@ -179,7 +127,7 @@ TEST(ContactLaws, MaterialsOfTheSameValuesAreOneMaterial)
         ContactScene a(one, layers(), box), b(two, layers(), box, material);
         a.run(300, 2e-5);
         b.run(300, 2e-5);
-        EXPECT_TRUE(same_bits(a.system, b.system)) << name_of(one);
+        EXPECT_TRUE(same_bits(a.system, b.system)) << name_of_laws(one);
     }
 }
 
@@ -192,14 +140,14 @@ TEST(ContactLaws, ThreadsAndARestartDoNotChangeABit)
             restarted(settings, layers(), box);
         one.run(300, 2e-5);
         two.run(300, 2e-5);
-        EXPECT_TRUE(same_bits(one.system, two.system)) << name_of(settings);
+        EXPECT_TRUE(same_bits(one.system, two.system)) << name_of_laws(settings);
 
         write_state(file, "test", one.system, 0);
         read_state(file, "test", one.system);
         read_state(file, "test", restarted.system);
         one.run(200, 2e-5);
         restarted.run(200, 2e-5);
-        EXPECT_TRUE(same_bits(one.system, restarted.system)) << name_of(settings);
+        EXPECT_TRUE(same_bits(one.system, restarted.system)) << name_of_laws(settings);
         EXPECT_GT(one.system.rebuilds(), 3);
         std::filesystem::remove_all(file.parent_path());
     }
@@ -241,9 +189,9 @@ TEST(ContactLaws, EveryLawKeepsMomentumAndAngularMomentum)
         scene.run(3000, 1e-6);
         auto const after = total();
         // Rounding of 3000 steps, and of positions near 0.5 m against levers of 3 mm.
-        EXPECT_LT((after.first - before.first).norm(), 1e-12 * before.first.norm()) << name_of(settings);
-        EXPECT_LT((after.second - before.second).norm(), 1e-10 * before.second.norm()) << name_of(settings);
-        EXPECT_GT((scene.spin(0) - spin_before).norm(), 0.1) << name_of(settings);
+        EXPECT_LT((after.first - before.first).norm(), 1e-12 * before.first.norm()) << name_of_laws(settings);
+        EXPECT_LT((after.second - before.second).norm(), 1e-10 * before.second.norm()) << name_of_laws(settings);
+        EXPECT_GT((scene.spin(0) - spin_before).norm(), 0.1) << name_of_laws(settings);
     }
 }
 

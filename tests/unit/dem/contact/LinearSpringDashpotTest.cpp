@@ -57,14 +57,20 @@ ContactGeometry<double> contact_with(Vector3<double> const& normal, Vector3<doub
     return {.normal = normal, .overlap = overlap, .velocity = velocity, .radius_eff = radius / 2, .mass_eff = mass / 2};
 }
 
+/// k_n = 500 N/m, k_t a quarter of it; a normal force of any sign.
+LinearConstants<double> constants_of(double damping, double friction)
+{
+    return {.stiffness = 500,
+            .damping = damping,
+            .stiffness_ratio = 0.25,
+            .friction = friction,
+            .tangential_share = 0.5,
+            .least_force = -1e30};
+}
+
 TEST(LinearSpringDashpot, ForceIsSpringPlusDashpotInBothDirections)
 {
-    LinearConstants<double> const constants{.stiffness = 500,
-                                            .damping = 0.2,
-                                            .stiffness_ratio = 0.25,
-                                            .friction = 10,
-                                            .tangential_share = 0.5,
-                                            .least_force = -1e30};
+    auto const constants = constants_of(0.2, 10);
     Vector3<double> spring{0, 0, 0};
     auto const contact = contact_with({0, 0, 1}, {0.01, 0, -0.02}, 1e-5);
 
@@ -80,12 +86,8 @@ TEST(LinearSpringDashpot, ForceIsSpringPlusDashpotInBothDirections)
 
 TEST(LinearSpringDashpot, LimitedDampingNeverPulls)
 {
-    LinearConstants<double> const constants{.stiffness = 500,
-                                            .damping = 0.2,
-                                            .stiffness_ratio = 0.25,
-                                            .friction = 10,
-                                            .tangential_share = 0,
-                                            .least_force = 0};
+    auto constants = constants_of(0.2, 10);
+    constants.tangential_share = constants.least_force = 0;
     Vector3<double> spring{0, 0, 0};
     // It parts so fast that the dashpot is stronger than the spring.
     auto const out =
@@ -96,12 +98,7 @@ TEST(LinearSpringDashpot, LimitedDampingNeverPulls)
 
 TEST(LinearSpringDashpot, SlidingForceIsCoulombsAndTheSpringIsCutToIt)
 {
-    LinearConstants<double> const constants{.stiffness = 500,
-                                            .damping = 0,
-                                            .stiffness_ratio = 0.25,
-                                            .friction = 0.3,
-                                            .tangential_share = 0.5,
-                                            .least_force = -1e30};
+    auto const constants = constants_of(0, 0.3);
     Vector3<double> spring{3e-4, 4e-4, 0};
 
     auto const out =

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "Figure.hpp"
-#include "TestCase.hpp"
+#include "LawScenes.hpp"
 #include "contact/ContactModel.hpp"
 #include "contact/Meeting.hpp"
 #include "exec/Hexadecad.hpp"
@@ -16,30 +16,6 @@ namespace
 using namespace gimdem;
 using namespace gimdem::test;
 using exec::Hexadecad;
-
-/// A number in [-1, 1] that looks random.
-double noise(int n)
-{
-    return std::sin(12.9898 * n + 78.233 * std::cos(4.1 * n));
-}
-Vector3<double> noisy(int n, double size)
-{
-    return {size * noise(n), size * noise(n + 1), size * noise(n + 2)};
-}
-
-/// A contact of beads in a bed: overlaps of 0.1 to 2 %, 0.1 m/s.
-ContactGeometry<double> contact_of(int n)
-{
-    Vector3<double> const normal = noisy(n, 1);
-    return {.normal = (1 / std::sqrt(normal.dot(normal))) * normal,
-            .overlap = 1e-5 * (1.1 + noise(n + 10)),
-            .velocity = noisy(n + 20, 0.1),
-            .radius_eff = 1e-3 * (1.5 + noise(n + 30)),
-            .mass_eff = 1e-6 * (1.5 + noise(n + 31)),
-            .spin = noisy(n + 40, 30),
-            .inverse_inertia = 1e12 * (1.5 + noise(n + 50)),
-            .per_distance = 400};
-}
 
 void put(Vector3<Hexadecad>& to, Vector3<double> const& from, int lane)
 {
@@ -56,32 +32,12 @@ double length(Vector3<double> const& v)
     return std::sqrt(v.dot(v));
 }
 
-std::vector<Case> all_laws()
-{
-    std::vector<Case> cases;
-    for (auto const force : force_law_names)
-        for (auto const rolling : rolling_law_names)
-            for (auto const cohesion : cohesion_law_names)
-            {
-                Case settings = bead_case(0.6, 0.3);
-                settings.dem.contact_law = force;
-                settings.dem.rolling_friction = rolling;
-                settings.dem.cohesion = cohesion;
-                settings.contacts[0].normal_stiffness = 50;
-                settings.contacts[0].rolling_friction = 0.2;
-                settings.contacts[0].rolling_damping = 0.3;
-                settings.contacts[0].cohesion_energy_density = 1000;
-                cases.push_back(settings);
-            }
-    return cases;
-}
-
 TEST(SinglePrecision, SixteenLanesGiveWhatDoubleGives)
 {
     double worst = 0;
     for (Case const& settings : all_laws())
     {
-        SCOPED_TRACE(settings.dem.contact_law + ' ' + settings.dem.rolling_friction + ' ' + settings.dem.cohesion);
+        SCOPED_TRACE(name_of_laws(settings));
         ContactModel(Materials(settings))
             .visit(
                 [&]<class Law>(LawTable<Law> const& table)

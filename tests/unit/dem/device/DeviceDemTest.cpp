@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "DeviceBackends.hpp"
@@ -66,6 +67,21 @@ TEST_P(DeviceDemTest, MovesSpheresOfManySizesAsTheHostDoes)
     compare(GetParam(), settings, 6, 5);
 }
 
+/// With a value for all that one of the laws may need.
+Case with_laws(std::string_view force, std::string_view rolling, std::string_view cohesion)
+{
+    Case settings = DeviceScene::falling();
+    settings.dem.contact_law = force;
+    settings.dem.rolling_friction = rolling;
+    settings.dem.cohesion = cohesion;
+    auto& pair = settings.contacts[0];
+    pair.normal_stiffness = 50;
+    pair.rolling_friction = 0.1;
+    pair.rolling_damping = 0.3;
+    pair.cohesion_energy_density = 2e3;
+    return settings;
+}
+
 TEST_P(DeviceDemTest, HasAllContactLaws)
 {
     for (auto const force : force_law_names)
@@ -73,16 +89,7 @@ TEST_P(DeviceDemTest, HasAllContactLaws)
             for (auto const cohesion : cohesion_law_names)
             {
                 SCOPED_TRACE(std::string(force) + " " + std::string(rolling) + " " + std::string(cohesion));
-                Case settings = DeviceScene::falling();
-                settings.dem.contact_law = force;
-                settings.dem.rolling_friction = rolling;
-                settings.dem.cohesion = cohesion;
-                auto& pair = settings.contacts[0];
-                pair.normal_stiffness = 50;
-                pair.rolling_friction = 0.1;
-                pair.rolling_damping = 0.3;
-                pair.cohesion_energy_density = 2e3;
-                compare(GetParam(), settings, 4, 1.5, {}, 20);
+                compare(GetParam(), with_laws(force, rolling, cohesion), 4, 1.5, {}, 20);
             }
 }
 
@@ -96,16 +103,8 @@ TEST_P(DeviceDemTest, ComputesLawsInSinglePrecisionAsTheHostDoes)
     for (auto const& [force, rolling, cohesion] : choices)
     {
         SCOPED_TRACE(std::string(force) + " " + rolling + " " + cohesion);
-        Case settings = DeviceScene::falling();
+        Case settings = with_laws(force, rolling, cohesion);
         settings.dem.precision = "mixed";
-        settings.dem.contact_law = force;
-        settings.dem.rolling_friction = rolling;
-        settings.dem.cohesion = cohesion;
-        auto& pair = settings.contacts[0];
-        pair.normal_stiffness = 50;
-        pair.rolling_friction = 0.1;
-        pair.rolling_damping = 0.3;
-        pair.cohesion_energy_density = 2e3;
         compare(GetParam(), settings, 5, 1.5, {}, 20);
     }
 }

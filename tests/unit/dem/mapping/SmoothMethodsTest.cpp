@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "CellMeshes.hpp"
-#include "TestCase.hpp"
-#include "mapping/Mapper.hpp"
+#include "Mapped.hpp"
 
 namespace
 {
@@ -15,20 +14,11 @@ using namespace gimdem;
 using namespace gimdem::test;
 
 /// Solid volume per cell of one sphere in cubes of the edge 1.
-exec::Buffer<double> solid_of(PolyMesh const& mesh, std::string const& name, double bandwidth, Sphere const& sphere)
+exec::Buffer<double> solid_of(PolyMesh const& mesh, std::string_view name, double bandwidth, Sphere const& sphere)
 {
-    MappingSettings settings;
-    settings.method = name;
+    MappingSettings settings = method(name);
     settings.bandwidth = bandwidth;
-    auto const particles = particles_of({sphere});
-    Mapper mapper(serial, mesh, settings);
-    exec::Buffer<std::uint8_t> walls(mesh.face_count());
-    walls.fill(1);
-    mapper.locate(particles, walls);
-    mapper.compute_weights(particles);
-    CellSums sums;
-    mapper.sum_into_cells(particles, {}, sums);
-    return sums.solid_volume;
+    return Mapped(mesh, settings, {sphere}).sums.solid_volume;
 }
 
 /// Mean of (x - x_p)^2 along each axis, weighted with the solid.
@@ -94,22 +84,13 @@ TEST(Diffusion, SpreadsAPointToTheVarianceOfTheKernel)
 TEST(Diffusion, LeavesAUniformFieldAlone)
 {
     PolyMesh const mesh(voronoi_cells(4, {1, 1, 1}).mesh());
-    MappingSettings settings;
-    settings.method = "diffusion";
     // A particle at each centroid, as large as its cell asks for: the same solid fraction everywhere.
     std::vector<Sphere> spheres;
     for (std::int32_t c = 0; c < mesh.cell_count(); ++c)
         spheres.push_back({mesh.centroid(c), std::cbrt(0.3 * mesh.volume(c) * 3 / (4 * M_PI))});
-    auto const particles = particles_of(spheres);
-    Mapper mapper(serial, mesh, settings);
-    exec::Buffer<std::uint8_t> walls(mesh.face_count());
-    walls.fill(1);
-    mapper.locate(particles, walls);
-    mapper.compute_weights(particles);
-    CellSums sums;
-    mapper.sum_into_cells(particles, {}, sums);
+    Mapped const mapped(mesh, method("diffusion"), spheres);
     for (std::int32_t c = 0; c < mesh.cell_count(); ++c)
-        EXPECT_NEAR(sums.solid_volume[c] / mesh.volume(c), 0.3, 1e-12);
+        EXPECT_NEAR(mapped.sums.solid_volume[c] / mesh.volume(c), 0.3, 1e-12);
 }
 
 TEST(Diffusion, PassesNothingThroughWalls)
