@@ -4,12 +4,12 @@
 
 #include <unistd.h>
 
-#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "Figure.hpp"
+#include "SameBits.hpp"
 #include "SphereBox.hpp"
 #include "engine/Checkpoint.hpp"
 #include "search/PairSprings.hpp"
@@ -39,12 +39,6 @@ SphereBox heap(std::string const& precision, int count, Execution execution)
         spheres[static_cast<std::size_t>(n)].position =
             2.2e-3 * (Vec3(n % 12, n / 12 % 12, n / 144) + Vec3::Constant(0.5)) + 1e-4 * Vec3(n % 3, n % 5, n % 7);
     return SphereBox(heap_case(precision), {{0.0275, 0.0275, 0.04}, closed()}, spheres, {}, execution);
-}
-
-template <class Buffer>
-bool same_bits(Buffer const& a, Buffer const& b)
-{
-    return a.size() == b.size() && std::memcmp(a.host().data(), b.host().data(), a.host().size_bytes()) == 0;
 }
 
 void expect_same(SphereBox const& one, SphereBox const& other, std::string const& what)

@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 #include <vector>
 
 #include "BoxMesh.hpp"
+#include "SameBits.hpp"
 #include "TestCase.hpp"
 #include "engine/DemSystem.hpp"
 #include "search/PairSprings.hpp"
@@ -82,12 +82,6 @@ private:
         return state;
     }
 };
-
-template <class T>
-bool same_bits(exec::Buffer<T> const& a, exec::Buffer<T> const& b)
-{
-    return a.size() == b.size() && (a.size() == 0 || std::memcmp(&a[0], &b[0], a.host().size_bytes()) == 0);
-}
 
 inline void expect_same_bits(DemSystem const& a, DemSystem const& b)
 {

@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
 
+#include "SameBits.hpp"
 #include "TestCase.hpp"
 #include "core/Error.hpp"
 #include "engine/Checkpoint.hpp"
@@ -90,12 +90,6 @@ struct ShortRun
     DemSystem system;
     RunPoint at;
 };
-
-template <class Buffer>
-inline bool same_bits(Buffer const& a, Buffer const& b)
-{
-    return a.size() == b.size() && std::memcmp(a.host().data(), b.host().data(), a.host().size_bytes()) == 0;
-}
 
 inline void expect_same(ShortRun const& a, ShortRun const& b)
 {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "SameBits.hpp"
 #include "engine/DemSystem.hpp"
 
 #include <gtest/gtest.h>
@@ -69,12 +70,10 @@ struct Shaker
 
 void expect_same_bits(DemSystem const& a, DemSystem const& b)
 {
-    auto const same = [](auto const& x, auto const& y)
-    { return x.size() == y.size() && std::memcmp(x.host().data(), y.host().data(), x.host().size_bytes()) == 0; };
-    EXPECT_TRUE(same(a.particles().id, b.particles().id));
-    EXPECT_TRUE(same(a.particles().position, b.particles().position));
-    EXPECT_TRUE(same(a.particles().velocity, b.particles().velocity));
-    EXPECT_TRUE(same(a.particles().angular_velocity, b.particles().angular_velocity));
+    EXPECT_TRUE(same_bits(a.particles().id, b.particles().id));
+    EXPECT_TRUE(same_bits(a.particles().position, b.particles().position));
+    EXPECT_TRUE(same_bits(a.particles().velocity, b.particles().velocity));
+    EXPECT_TRUE(same_bits(a.particles().angular_velocity, b.particles().angular_velocity));
 }
 
 TEST(DemSystem, FreeFallIsExact)

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 #include "Pairs.hpp"
+#include "SameBits.hpp"
 #include "TestCase.hpp"
 #include "search/CellGrid.hpp"
 
@@ -157,14 +157,12 @@ TEST(Polydisperse, ThreadsDoNotChangeTheList)
     NeighborSearch(serial, 0.002).build(one, list_of_one);
     NeighborSearch({gimdem::exec::Backend::openmp, 3}, 0.002).build(three, list_of_three);
 
-    auto const same = [](auto const& a, auto const& b)
-    { return a.size() == b.size() && std::memcmp(a.host().data(), b.host().data(), a.host().size_bytes()) == 0; };
-    EXPECT_TRUE(same(one.position, three.position));
-    EXPECT_TRUE(same(one.id, three.id));
-    EXPECT_TRUE(same(list_of_one.row_offsets, list_of_three.row_offsets));
-    EXPECT_TRUE(same(list_of_one.second, list_of_three.second));
-    EXPECT_TRUE(same(list_of_one.border.by_second.members, list_of_three.border.by_second.members));
-    EXPECT_TRUE(same(list_of_one.border.by_second.offsets, list_of_three.border.by_second.offsets));
+    EXPECT_TRUE(same_bits(one.position, three.position));
+    EXPECT_TRUE(same_bits(one.id, three.id));
+    EXPECT_TRUE(same_bits(list_of_one.row_offsets, list_of_three.row_offsets));
+    EXPECT_TRUE(same_bits(list_of_one.second, list_of_three.second));
+    EXPECT_TRUE(same_bits(list_of_one.border.by_second.members, list_of_three.border.by_second.members));
+    EXPECT_TRUE(same_bits(list_of_one.border.by_second.offsets, list_of_three.border.by_second.offsets));
 }
 
 struct Cost
