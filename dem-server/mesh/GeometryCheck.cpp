@@ -74,10 +74,11 @@ void check_pair(PolyMesh const& mesh, std::int32_t a, std::int32_t b)
     auto const owner = [&](std::int32_t f) { return mesh.topology().owner[static_cast<std::size_t>(f)]; };
     bool const is_baffle = a >= mesh.internal_face_count() && b >= mesh.internal_face_count() && owner(a) != owner(b);
     if (is_baffle || sorted_points(mesh, a) != sorted_points(mesh, b)) return;
-    throw UserError(fmt::format(
-        "faces {} and {} near {} have the same points, of cells {} and {} (a face has one owner and one neighbour; only "
-        "two boundary faces of two cells, a baffle, may coincide); check the mesh, e.g. with checkMesh",
-        a, b, place(mesh.face_centre(a)), owner(a), owner(b)));
+    throw UserError(
+        fmt::format("faces {} and {} near {} have the same points, of cells {} and {} (a face has one owner and one "
+                    "neighbour; only "
+                    "two boundary faces of two cells, a baffle, may coincide); check the mesh, e.g. with checkMesh",
+                    a, b, place(mesh.face_centre(a)), owner(a), owner(b)));
 }
 
 // Faces with the same points have the same sum of squares of their numbers: candidates are those
@@ -90,9 +91,9 @@ void check_double_faces(PolyMesh const& mesh)
     for (std::int32_t const f : order)
     {
         auto const points = mesh.points_of_face(f);
-        key[static_cast<std::size_t>(f)] = std::accumulate(points.begin(), points.end(), std::int64_t{0},
-                                                           [](std::int64_t sum, std::int32_t p)
-                                                           { return sum + std::int64_t{p} * p; });
+        key[static_cast<std::size_t>(f)] =
+            std::accumulate(points.begin(), points.end(), std::int64_t{0},
+                            [](std::int64_t sum, std::int32_t p) { return sum + std::int64_t{p} * p; });
     }
     auto const key_of = [&](std::int32_t f) { return key[static_cast<std::size_t>(f)]; };
     std::ranges::stable_sort(order, {}, key_of);

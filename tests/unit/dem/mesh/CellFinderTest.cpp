@@ -173,9 +173,9 @@ TEST(CellFinder, PointsOnFacesEdgesAndCornersAreOfTheLowestCellFromAnywhere)
     {
         Vec3 x;
         int cell;
-    } const cases[] = {{{3, 2.5, 2.25}, number(2, 2, 2)},    {{3, 2.75, 4}, number(2, 2, 3)},
-                       {{3, 2, 4}, number(2, 1, 3)},         {{0, 2.5, 2.5}, number(0, 2, 2)},
-                       {{n, n, n}, number(5, 5, 5)},         {{0, 0, 3}, number(0, 0, 2)}};
+    } const cases[] = {{{3, 2.5, 2.25}, number(2, 2, 2)}, {{3, 2.75, 4}, number(2, 2, 3)},
+                       {{3, 2, 4}, number(2, 1, 3)},      {{0, 2.5, 2.5}, number(0, 2, 2)},
+                       {{n, n, n}, number(5, 5, 5)},      {{0, 0, 3}, number(0, 0, 2)}};
     for (auto const& [x, cell] : cases)
         for (std::int32_t last = -1; last < find.mesh.cell_count(); ++last)
         {

@@ -133,7 +133,8 @@ TEST(GeometryCheck, BaffleIsTaken)
             add(f, mesh.neighbour[f], true);
         }
     auto const internal = static_cast<std::int32_t>(cut.neighbour.size());
-    cut.patches = {{"sides", coupling::PatchKind::wall, internal, static_cast<std::int32_t>(cut.owner.size()) - internal}};
+    cut.patches = {
+        {"sides", coupling::PatchKind::wall, internal, static_cast<std::int32_t>(cut.owner.size()) - internal}};
     ASSERT_EQ(cut.owner.size(), mesh.owner.size() + 9);
     EXPECT_EQ(refusal(cut), "");
 }
