@@ -161,9 +161,16 @@ WeightRows Mapper::rows() const
             by_cell_.members.view().data, first_weight_.view().data};
 }
 
+bool Mapper::prepare(ParticleState const& particles)
+{
+    if (!method_->prepare(particles)) return false;
+    find_reverse_slots();
+    return true;
+}
+
 void Mapper::compute_weights(ParticleState const& particles)
 {
-    if (method_->prepare(particles)) find_reverse_slots();
+    prepare(particles);
     lay_out_rows();
     method_->compute_weights({execution_, particles, occupied_, rows(), weights_.view().data});
 }

@@ -32,6 +32,9 @@ public:
     /// radius.
     void locate(ParticleState const& particles, exec::Buffer<std::uint8_t> const& wall_faces);
 
+    /// Sees to candidates for particles of these sizes. True where layers() are not the ones of before.
+    bool prepare(ParticleState const& particles);
+
     /// Weights of every particle by the method of the settings.
     void compute_weights(ParticleState const& particles);
 

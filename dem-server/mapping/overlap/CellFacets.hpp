@@ -45,6 +45,13 @@ public:
 
     CellFacetsView view() const;
 
+    // What a device needs beside the mesh and its boxes.
+    exec::Buffer<double> const& points() const { return points_; }
+    exec::Buffer<std::int32_t> const& facet_offsets() const { return facet_offsets_; }
+    exec::Buffer<std::int32_t> const& corner_offsets() const { return corner_offsets_; }
+    exec::Buffer<std::int32_t> const& corners() const { return corners_; }
+    exec::Buffer<Quad> const& normals() const { return normal_; }
+
 private:
     void add_face(std::int32_t face);
     void add_facet(std::int32_t const* corners, int count, Vec3 const& area);
