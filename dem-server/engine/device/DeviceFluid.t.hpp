@@ -45,9 +45,9 @@ void DeviceMesh<Device>::upload(Device& device, FluidScene const& scene)
     offsets_.upload(device, {from.cell_offsets, cells + 1});
     cell_faces_.upload(device, {from.cell_faces, static_cast<std::size_t>(from.cell_offsets[cells])});
     coupling::Mesh const& topology = scene.mesh.topology();
-    points_.upload(device, topology.points);
-    face_offsets_.upload(device, topology.face_offsets);
-    face_points_.upload(device, topology.face_points);
+    points_.upload(device, {topology.points.data(), topology.points.size()});
+    face_offsets_.upload(device, {topology.face_offsets.data(), topology.face_offsets.size()});
+    face_points_.upload(device, {topology.face_points.data(), topology.face_points.size()});
     BoxGrid const& grid = scene.mapper.cell_grid();
     boxes_.upload(device, grid.boxes());
     bin_offsets_.upload(device, grid.offsets());

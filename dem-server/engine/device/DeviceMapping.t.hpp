@@ -2,8 +2,6 @@
 /// Body of DeviceMapping, for the files that instantiate it.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <vector>
 
@@ -40,10 +38,9 @@ void DeviceMapping<Device>::upload(Device& device, FluidScene const& scene, Mesh
     else if (auto const* const exact = dynamic_cast<ExactOverlap*>(&method))
         kind_ = Kind::overlap, upload_facets(device, *exact);
     else
-        throw UserError(fmt::format(
-            "mapping method \"{0}\" does not run on a GPU (it has no law in mapping/PairLaws.hpp); set another [mapping] "
-            "method, or run on the processor with --device cpu",
-            scene.settings.mapping.method));
+        throw UserError("mapping method \"" + scene.settings.mapping.method +
+                        "\" does not run on a GPU (it has no law in mapping/PairLaws.hpp); set another [mapping] "
+                        "method, or run on the processor with --device cpu");
     device.wait();
 }
 
@@ -57,7 +54,7 @@ void DeviceMapping<Device>::upload_rows(Device& device, Mapper const& mapper)
     std::vector<std::int32_t> row_of(static_cast<std::size_t>(layers.cells.size()));
     for (std::int32_t c = 0; c + 1 < layers.offsets.size(); ++c)
         std::fill(row_of.begin() + layers.offsets[c], row_of.begin() + layers.offsets[c + 1], c);
-    row_of_.upload(device, row_of);
+    row_of_.upload(device, {row_of.data(), row_of.size()});
     device.wait();
 }
 
