@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from console import UserError, server_binary, shown
+from meshes import mesh_source
 
 CLIENTS = ("openfoam", "reference")
 DICTIONARIES = {
@@ -93,7 +94,8 @@ def check_openfoam_dictionaries(case: CaseDescription) -> None:
     """Every file that gimdemFoam reads is there; the first absent one is named."""
     wanted = dict(DICTIONARIES)
     if case.grid:
-        wanted[f"system/blockMeshDict.{case.grid}"] = f"mesh of grid {case.grid}"
+        source = mesh_source(case.folder, case.grid)
+        wanted[f"system/{source.name}"] = f"mesh of grid {case.grid}, or a script of gmsh: {case.grid}.geo"
     elif not (case.folder / "constant" / "polyMesh" / "points").exists():
         wanted["system/blockMeshDict"] = "mesh; or a ready one in constant/polyMesh"
     for name, purpose in wanted.items():

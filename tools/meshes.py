@@ -60,6 +60,11 @@ def mesh_source(case: Path, grid: str) -> Path:
     return case / "system" / (f"blockMeshDict.{grid}" if grid else "blockMeshDict")
 
 
+def is_script(source: Path) -> bool:
+    """Of gmsh."""
+    return source.suffix == ".geo"
+
+
 def up_to_date(source: Path) -> tuple[Path, gmsh_mesh.MeshQuality]:
     """The folder CASE/meshes/GRID with the mesh of `source`, made now if need be."""
     grid = source.name.removesuffix(".geo").removeprefix("blockMeshDict").removeprefix(".")
@@ -79,8 +84,16 @@ def up_to_date(source: Path) -> tuple[Path, gmsh_mesh.MeshQuality]:
         return folder, gmsh_mesh.quality_in(folder / "log.checkMesh")
 
 
+def copy_into(folder: Path, source: Path) -> str:
+    """Give a run the mesh of a script; returns one line about it."""
+    kept, quality = up_to_date(source)
+    shutil.copytree(kept / "constant" / "polyMesh", folder / "constant" / "polyMesh")
+    shutil.copy2(kept / "log.checkMesh", folder / "log.checkMesh")
+    return f"{quality.cells} cells with {quality.faces_per_cell:.1f} faces each, from {shown(kept)}"
+
+
 def make(source: Path, folder: Path) -> None:
-    if source.suffix == ".geo":
+    if is_script(source):
         gmsh_mesh.make(source, folder)
     else:
         gmsh_mesh.prepare(folder)
