@@ -93,11 +93,11 @@ def check_grid(case: CaseDescription, grid: str) -> None:
 def check_openfoam_dictionaries(case: CaseDescription) -> None:
     """Every file that gimdemFoam reads is there; the first absent one is named."""
     wanted = dict(DICTIONARIES)
+    mesh = f"system/{mesh_source(case.folder, case.grid).name}"
     if case.grid:
-        source = mesh_source(case.folder, case.grid)
-        wanted[f"system/{source.name}"] = f"mesh of grid {case.grid}, or a script of gmsh: {case.grid}.geo"
+        wanted[mesh] = f"mesh of grid {case.grid}; or a script of gmsh, {case.grid}.geo"
     elif not (case.folder / "constant" / "polyMesh" / "points").exists():
-        wanted["system/blockMeshDict"] = "mesh; or a ready one in constant/polyMesh"
+        wanted[mesh] = "mesh; or a script of gmsh, mesh.geo, or a ready mesh in constant/polyMesh"
     for name, purpose in wanted.items():
         if not (case.folder / name).is_file():
             raise UserError(f"{shown(case.folder / name)} is absent (OpenFOAM needs it: {purpose}); "
