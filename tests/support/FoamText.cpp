@@ -30,9 +30,10 @@ FoamText::FoamText(std::filesystem::path const& file) : file_(file)
     std::ifstream stream(file, std::ios::binary);
     std::ostringstream content;
     if (!stream || !(content << stream.rdbuf()))
-        throw UserError(fmt::format("{} cannot be read (a mesh has the files points, faces, owner, neighbour and "
-                                    "boundary); give a folder polyMesh, or the case that has it in constant",
-                                    file.string()));
+        throw UserError(
+            fmt::format("{} cannot be read (a mesh has the files points, faces, owner, neighbour and "
+                        "boundary); give a folder polyMesh, or the case that has it in constant",
+                        file.string()));
     text_ = std::move(content).str();
     expect("FoamFile");
     expect("{");
@@ -40,7 +41,9 @@ FoamText::FoamText(std::filesystem::path const& file) : file_(file)
     {
         bool const is_format = skip("format");
         if (is_format && look() == "binary") fail("format binary, which is not read here; run foamFormatConvert");
-        while (next() != ";") {}
+        while (next() != ";")
+        {
+        }
     }
 }
 

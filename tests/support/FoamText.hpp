@@ -12,7 +12,8 @@
 namespace gimdem::test
 {
 
-/// One file, read from its header on. All members throw UserError, with file and line, where the text is something else.
+/// One file, read from its header on. All members throw UserError, with file and line, where the text is something
+/// else.
 class FoamText
 {
 public:
@@ -24,7 +25,7 @@ public:
     bool skip(std::string_view word);  ///< true, and passed, if this is next
     int integer();
     double number();
-    Vec3 vector();               ///< (x y z)
+    Vec3 vector();                ///< (x y z)
     std::vector<int> integers();  ///< 3(4 5 6), 3{4}: three times 4, or 3(...) over several lines
 
     [[noreturn]] void fail(std::string_view what) const;

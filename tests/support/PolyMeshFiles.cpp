@@ -67,8 +67,8 @@ coupling::PatchKind kind_of(std::string_view type)
 {
     using enum coupling::PatchKind;
     static std::map<std::string_view, coupling::PatchKind> const kinds{
-        {"wall", wall},   {"symmetry", symmetry}, {"symmetryPlane", symmetry}, {"empty", empty},
-        {"cyclic", cyclic}, {"processor", processor}};
+        {"wall", wall},   {"symmetry", symmetry}, {"symmetryPlane", symmetry},
+        {"empty", empty}, {"cyclic", cyclic},     {"processor", processor}};
     auto const at = kinds.find(type);
     return at == kinds.end() ? open : at->second;
 }
@@ -85,7 +85,9 @@ coupling::Patch read_patch(FoamText& text)
         if (key == "type") patch.kind = kind_of(text.next());
         if (key == "nFaces") patch.face_count = text.integer();
         if (key == "startFace") patch.start_face = text.integer();
-        while (text.next() != ";") {}
+        while (text.next() != ";")
+        {
+        }
     }
     return patch;
 }

@@ -36,7 +36,8 @@ bool is_inside(Vec3 const& x, Region const& region)
 
 bool is_at_wall(PolyMesh const& mesh, std::int32_t cell)
 {
-    return std::ranges::any_of(mesh.faces_of_cell(cell), [&](std::int32_t f) { return f >= mesh.internal_face_count(); });
+    return std::ranges::any_of(mesh.faces_of_cell(cell),
+                               [&](std::int32_t f) { return f >= mesh.internal_face_count(); });
 }
 
 }  // namespace
@@ -83,9 +84,9 @@ Jump void_fraction_jump(MethodOnMesh& method, PolyMesh const& mesh, Probes const
         for (std::size_t k = 1; k < rows.size(); ++k, ++steps)
         {
             double largest = 0;
-            test::for_each_cell_of(
-                rows[k - 1], rows[k], [&](std::int32_t cell, double a, double b)
-                { largest = std::max(largest, std::abs(b - a) * volume / mesh.volume(cell)); });
+            test::for_each_cell_of(rows[k - 1], rows[k],
+                                   [&](std::int32_t cell, double a, double b)
+                                   { largest = std::max(largest, std::abs(b - a) * volume / mesh.volume(cell)); });
             jump.largest = std::max(jump.largest, largest);
             jump.mean += largest;
         }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "BoxMesh.hpp"
@@ -18,11 +19,12 @@ namespace gimdem::benchmark
 namespace
 {
 
-/// What a box is made of: its period [diameters], and which of its cells are beside each other along each axis.
+/// What a box is made of.
 struct Pattern
 {
-    Vec3 period;
-    int count;  ///< periods along each axis
+    Vec3 period;                ///< [diameters]
+    std::array<int, 3> counts;  ///< of periods along each axis
+    Vec3 lengths() const { return diameter * period.cwiseProduct(Vec3(counts[0], counts[1], counts[2])); }
 };
 
 Pattern pattern_of(MeshOptions const& options)
@@ -32,9 +34,13 @@ Pattern pattern_of(MeshOptions const& options)
     if (options.mesh == "stretched-2") period = a / std::cbrt(2) * Vec3(1, 1, 2);
     if (options.mesh == "stretched-4") period = a / std::cbrt(4) * Vec3(1, 1, 4);
     if (options.mesh == "tetrahedra") period *= std::cbrt(6);
-    int count = std::max(options.cells, static_cast<int>(std::ceil(options.width / period.minCoeff() - 1e-9)));
-    if (options.mesh == "polyhedra") count = std::min(count, 11);  // the making of more takes long
-    return {period, count};
+    Pattern pattern{period, {}};
+    for (int axis = 0; axis < 3; ++axis)
+        pattern.counts[axis] =
+            std::max(options.cells, static_cast<int>(std::ceil(options.width / period[axis] - 1e-9)));
+    // The making of more of them takes long.
+    if (options.mesh == "polyhedra") pattern.counts.fill(std::min(pattern.counts[0], 11));
+    return pattern;
 }
 
 bool is_built_in(MeshOptions const& options)
@@ -45,11 +51,12 @@ bool is_built_in(MeshOptions const& options)
 coupling::Mesh make_mesh(MeshOptions const& options)
 {
     if (!is_built_in(options)) return test::read_poly_mesh(options.mesh);
-    auto const [period, n] = pattern_of(options);
-    Vec3 const edges = diameter * period, lengths = n * edges;
-    if (options.mesh == "tetrahedra") return test::shaken(test::tetrahedra(n, edges), 0.1).mesh();
+    Pattern const pattern = pattern_of(options);
+    Vec3 const lengths = pattern.lengths();
+    int const n = pattern.counts[0];
+    if (options.mesh == "tetrahedra") return test::shaken(test::tetrahedra(n, diameter * pattern.period), 0.1).mesh();
     if (options.mesh == "polyhedra") return test::voronoi_cells(n, lengths).mesh();
-    return test::BoxMesh::make({n, n, n}, {lengths.x(), lengths.y(), lengths.z()});
+    return test::BoxMesh::make(pattern.counts, {lengths.x(), lengths.y(), lengths.z()});
 }
 
 }  // namespace
@@ -70,10 +77,11 @@ MappingScene::MappingScene(MeshOptions const& options)
         middle.high.array() -= diameter / 2;
         return;
     }
-    auto const [period, n] = pattern_of(options);
+    Pattern const pattern = pattern_of(options);
     int const periods = options.mesh == "polyhedra" ? 3 : 1;  // all of its cells are different
-    middle.low = diameter * ((n - periods) / 2) * period;
-    middle.high = middle.low + diameter * periods * period;
+    for (int axis = 0; axis < 3; ++axis)
+        middle.low[axis] = diameter * pattern.period[axis] * ((pattern.counts[axis] - periods) / 2);
+    middle.high = middle.low + diameter * periods * pattern.period;
 }
 
 double MappingScene::ratio() const

@@ -12,8 +12,8 @@
 namespace gimdem::benchmark
 {
 
-inline constexpr double diameter = 1.545e-3;    ///< of all particles, as in cases/wachem-bed [m]
-inline constexpr double solid_fraction = 0.4;   ///< of all packings
+inline constexpr double diameter = 1.545e-3;       ///< of all particles, as in cases/wachem-bed [m]
+inline constexpr double solid_fraction = 0.4;      ///< of all packings
 inline constexpr std::int64_t bed_count = 17'563;  ///< particles of cases/wachem-bed
 
 /// Names of the meshes that are made here; any other is a folder with a polyMesh of a box.

@@ -36,13 +36,13 @@ void MethodOnMesh::map(ParticleState const& particles)
 // One particle in the middle of a cell: its weights and its sums are the same unless the method spreads.
 bool MethodOnMesh::find_whether_it_spreads()
 {
-    auto const particles =
-        test::particles_of({{mesh_.centroid(mesh_.cell_count() / 2), diameter / 2}});
+    auto const particles = test::particles_of({{mesh_.centroid(mesh_.cell_count() / 2), diameter / 2}});
     map(particles);
     mapper_.sum_into_cells(particles, no_impulses_, sums_);
     double difference = 0;
     std::vector<double> left(sums_.solid_volume.host().begin(), sums_.solid_volume.host().end());
-    for (auto const& [cell, weight] : test::sparse_rows(mapper_)[0])
+    auto const rows = test::sparse_rows(mapper_);
+    for (auto const& [cell, weight] : rows[0])
         left[static_cast<std::size_t>(cell)] -= weight * sphere_volume(diameter / 2);
     for (double const volume : left)
         difference += std::abs(volume);
