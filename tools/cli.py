@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import bench_dem
+import meshes
 import run_case
 from build import build
 from console import ROOT, UserError, build_dir, say, shown
@@ -29,6 +30,7 @@ def parser() -> argparse.ArgumentParser:
         return command
 
     run_case.add_options(add("run", run_case.run, "install what is missing, build, run a case, plot and sum up"))
+    meshes.add_options(add("mesh", meshes.run, "make the mesh of a case without running it"))
     add("test", run_tests, f"build everything and run the tests, except {SKIPPED_LABELS}; further options go to ctest")
     bench = add("bench", run_benchmarks, "run the benchmarks")
     bench.add_argument("name", nargs="?", help="only this one")

@@ -1,0 +1,9 @@
+// Grid C: 25,840 polyhedra, 1.56 particle diameters
+
+h = 2.07e-3; // [m]
+g = 0.6;
+d = 7.5e-4; // [m]
+
+Include "box.geo";
+
+Physical Volume("polyhedra") = {1};

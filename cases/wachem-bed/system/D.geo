@@ -1,0 +1,9 @@
+// Grid D: 17,994 polyhedra, 1.76 particle diameters
+
+h = 2.39e-3; // [m]
+g = 0.6;
+d = 7.5e-4; // [m]
+
+Include "box.geo";
+
+Physical Volume("polyhedra") = {1};
