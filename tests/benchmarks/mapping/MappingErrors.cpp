@@ -29,6 +29,7 @@ struct Scenes
         : alone({options.common.mesh, options.common.ratio, 15, 7}),
           packed({options.common.mesh, options.common.ratio, 28.4, 5}),
           probes(alone, options.places, options.lines),
+          few_probes(alone, options.places / 20, options.lines / 5),
           bed(packed.bed(packed.is_from_files ? bed_count : 0)),
           spheres(packed.packing(packed.is_from_files ? bed_count : 0, options.sweeps)),
           exact_alone(alone.mesh, "exact"),
@@ -37,7 +38,7 @@ struct Scenes
     }
 
     MappingScene alone, packed;
-    Probes probes;
+    Probes probes, few_probes;
     Region bed;
     std::vector<test::Sphere> spheres;
     MethodOnMesh exact_alone;
@@ -47,8 +48,10 @@ struct Scenes
 void measure(std::string const& name, Scenes& scenes)
 {
     MethodOnMesh alone(scenes.alone.mesh, name);
-    double const wrong = wrong_cells(alone, scenes.exact_alone, scenes.probes);
-    Jump const jump = void_fraction_jump(alone, scenes.alone.mesh, scenes.probes);
+    // What spreads solves for all cells for each particle.
+    Probes const& probes = alone.spreads() ? scenes.few_probes : scenes.probes;
+    double const wrong = wrong_cells(alone, scenes.exact_alone, probes);
+    Jump const jump = void_fraction_jump(alone, scenes.alone.mesh, probes);
     auto const fractions = MethodOnMesh(scenes.packed.mesh, name).solid_fractions(scenes.spheres);
     PackingErrors const packing = packing_errors(scenes.packed, scenes.bed, fractions, scenes.exact_fractions);
     fmt::print("{},{},{:.4g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", name, scenes.packed.mesh.cell_count(),
@@ -72,7 +75,14 @@ int main(int argc, char** argv)
     add_common_options(app, options.common);
     app.add_option("--places", options.places, "random places of one particle");
     app.add_option("--lines", options.lines, "random lines that one particle moves along");
+    bool list = false;
+    app.add_flag("--list", list, "print the names of the methods, no more");
     app.add_option("--sweeps", options.sweeps, "Monte Carlo moves of each particle of the packing");
     CLI11_PARSE(app, argc, argv);
+    if (list)
+    {
+        fmt::print("{}\n", fmt::join(mapping_method_names, "\n"));
+        return 0;
+    }
     return guarded("mapping_errors", [&] { run(options); });
 }

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "MappingOptions.hpp"
-#include "MeshCopies.hpp"
 #include "MemoryInUse.hpp"
+#include "MeshCopies.hpp"
 #include "mapping/Mapper.hpp"
 
 namespace
@@ -96,8 +96,7 @@ void measure(std::string const& name, SpeedScene const& scene, Options const& op
 {
     MappingSettings settings;
     settings.method = name;
-    exec::Execution const execution =
-        exec::make_execution(options.threads == 1 ? "serial" : "openmp", options.threads);
+    exec::Execution const execution = exec::make_execution(options.threads == 1 ? "serial" : "openmp", options.threads);
     exec::Buffer<std::uint8_t> wall_faces(scene.mesh.face_count());
     wall_faces.fill(1);
     exec::Buffer<Impulse> impulses(scene.particles.count());
@@ -115,8 +114,7 @@ void measure(std::string const& name, SpeedScene const& scene, Options const& op
 
     double const locate = least_seconds(options, [&] { mapper.locate(scene.particles, wall_faces); });
     double const weights = least_seconds(options, [&] { mapper.compute_weights(scene.particles); });
-    double const summing =
-        least_seconds(options, [&] { mapper.sum_into_cells(scene.particles, impulses, sums); });
+    double const summing = least_seconds(options, [&] { mapper.sum_into_cells(scene.particles, impulses, sums); });
     fmt::print("{},{},{:.4g},{},{},{:.5g},{:.5g},{:.5g},{:.5g},{:.4g},{:.5g}\n", name, scene.mesh.cell_count(),
                scene.one.ratio(), scene.particles.count(), options.threads, 1e9 * locate / n, 1e9 * weights / n,
                1e9 * summing / n, 1e3 * (locate + weights + summing), row, bytes);
@@ -126,8 +124,9 @@ void measure(std::string const& name, SpeedScene const& scene, Options const& op
 void run(Options const& options)
 {
     SpeedScene const scene(options);
-    fmt::print("method,cells,ratio,particles,threads,locate_ns,weights_ns,sums_ns,step_ms,weights_per_particle,"
-               "bytes_per_particle\n");
+    fmt::print(
+        "method,cells,ratio,particles,threads,locate_ns,weights_ns,sums_ns,step_ms,weights_per_particle,"
+        "bytes_per_particle\n");
     for_each_method(options.common, [&](std::string const& name) { measure(name, scene, options); });
 }
 

@@ -36,8 +36,7 @@ inline coupling::Mesh copies_of(coupling::Mesh const& one, int count, double spa
     for (int copy = 0; copy < count; ++copy)
         add_faces(copy, internal, faces);
     auto const first = static_cast<std::int32_t>(all.neighbour.size());
-    all.patches = {
-        {"sides", coupling::PatchKind::wall, first, static_cast<std::int32_t>(all.owner.size()) - first}};
+    all.patches = {{"sides", coupling::PatchKind::wall, first, static_cast<std::int32_t>(all.owner.size()) - first}};
     return all;
 }
 

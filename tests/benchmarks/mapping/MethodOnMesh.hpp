@@ -18,6 +18,9 @@ class MethodOnMesh
 public:
     MethodOnMesh(PolyMesh const& mesh, std::string_view method);
 
+    /// Whether cells pass on what they receive.
+    bool spreads() const { return spreads_; }
+
     /// What each sphere would give to each cell if it were alone: a method may spread further what cells have received.
     std::vector<test::SparseRow> weights(std::vector<test::Sphere> const& spheres);
 
