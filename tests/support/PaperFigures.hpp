@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What Figures 3 to 8 of the paper of the Gaussian Integral Method show: one particle and one spherical cell, theory.md
-/// (G.4)-(G.7), (G.15)-(G.18). Lengths are in radii of the particle, so V_p counts as 1.
+/// What Figures 3 to 8 of the paper of the Gaussian Integral Method show: one particle and one spherical cell,
+/// theory.md (G.4)-(G.7), (G.15)-(G.18). Lengths are in radii of the particle, so V_p counts as 1.
 #pragma once
 
 #include <cmath>
@@ -74,7 +74,8 @@ inline std::pair<double, double> trend_line(int last)
     return {std::exp((y1 - slope * x1) / n), -slope};
 }
 
-/// The smallest coefficient with which a cell shares the whole of a particle that touches its sphere from inside, (G.16).
+/// The smallest coefficient with which a cell shares the whole of a particle that touches its sphere from inside,
+/// (G.16).
 inline double least_whole_coefficient(double volume_ratio)
 {
     double const s = std::cbrt(volume_ratio);

@@ -2,11 +2,9 @@
 /// The curves of Figures 3 to 8 of the method's paper, as rows of CSV: `./gimdem bench gim-figures` draws them.
 ///
 ///   figure        3 ... 8
-///   curve         particle, cell, shared (3 to 5: densities); ratio, cap, cap_as_printed (6, 7: I / V_p); best, eq27, trend (8)
-///   position      psi: the cell is at mu = r_c + psi r_p (3 to 6)
-///   volume_ratio  V_c / V_p
-///   phi           coefficient
-///   x, y          x: place [r_p] (3 to 5), V_c / V_p (6, 8), psi (7)
+///   curve         particle, cell, shared (3 to 5: densities); ratio, cap, cap_as_printed (6, 7: I / V_p); best, eq27,
+///   trend (8) position      psi: the cell is at mu = r_c + psi r_p (3 to 6) volume_ratio  V_c / V_p phi coefficient x,
+///   y          x: place [r_p] (3 to 5), V_c / V_p (6, 8), psi (7)
 #include <fmt/format.h>
 
 #include <algorithm>
