@@ -12,7 +12,7 @@ import bench_scenes
 from bench_program import PRECISIONS, benchmark, precisions
 from bench_report import Report
 from bench_states import folder
-from console import UserError, say, shown
+from console import say, shown
 
 PARTS = ("peers", "growth", "features", "sizes")
 
@@ -21,19 +21,16 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--against", metavar="NAMES", default="",
                          help="dem: other programs to run beside it, of liggghts,lammps; installed with apt if absent")
     command.add_argument("--repeats", type=int, default=3, help="dem: rounds; medians are printed (3)")
-    command.add_argument("--only", metavar="PARTS", default=",".join(PARTS),
-                         help=f"dem: some of {','.join(PARTS)} (all, about ten minutes)")
-    command.add_argument("--quick", action="store_true", help="dem: fewer steps and particles, two rounds")
+    command.add_argument("--only", metavar="PARTS", default="",
+                         help=f"dem: some of {','.join(PARTS)} (all, about ten minutes); mapping: errors,speed,stages")
+    command.add_argument("--quick", action="store_true",
+                         help="dem: fewer steps and particles, two rounds; mapping: fewer meshes and places")
     command.add_argument("--device", choices=("cpu", "cuda"), default="cpu",
                          help="dem: where our particles are; cuda: up to 4 million, without peers (cpu)")
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace, parts: list[str]) -> int:
     peers = [name for name in options.against.split(",") if name]
-    parts = [name for name in options.only.split(",") if name]
-    for name in parts:
-        if name not in PARTS:
-            raise UserError(f"no part {name} of the benchmark (there are {', '.join(PARTS)}); see --help", 2)
     bench_peers.check(peers)
     if options.device == "cuda":
         reason = why_no_gpu()

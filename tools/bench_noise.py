@@ -18,25 +18,26 @@ from bench_states import folder
 from console import ROOT, UserError, say, shown
 
 CASE = ROOT / "cases" / "wachem-bed"
+METHODS = ("pcm", "divided", "gim", "fbsi", "exact")
+GRIDS = ("A", "E")
 SIGNALS = ("pressure_45mm", "pressure_drop")
 COLUMNS = ("grid", "method", "simulated_s", *(f"{name}_noise_Pa_per_s" for name in SIGNALS), "void_fraction_min",
            "void_fraction_clips", "share_mapping", "wall_time_s")
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--methods", default="pcm,divided,gim,fbsi,exact", metavar="NAMES",
-                         help="noise: mapping methods (pcm,divided,gim,fbsi,exact)")
-    command.add_argument("--grids", default="A,E", metavar="NAMES", help="noise: grids of the wachem bed (A,E)")
-    command.add_argument("--until", type=float, default=1.0, metavar="T", help="noise: simulated time [s] (1)")
+    command.add_argument("--until", type=float, default=1.0, metavar="T", help="noise: simulated time of a run [s] (1)")
 
 
 def run(options: argparse.Namespace) -> int:
     if not options.until > 0:
         raise UserError(f"--until {options.until} is not a positive time", 2)
+    methods = options.method.split(",") if options.method else METHODS
+    grids = options.mesh.split(",") if options.mesh else GRIDS
     place = folder() / "noise"
     place.mkdir(exist_ok=True)
     rows = [Row(grid, method, options.until, place)
-            for grid in options.grids.split(",") for method in options.methods.split(",")]
+            for grid in grids for method in methods]
     for row in rows:
         row.measure()
         write_table(rows, place / "noise.csv")

@@ -14,6 +14,7 @@ import matplotlib.pyplot as plt
 
 from plot_run import STYLE
 
+CROPPED = {**STYLE, "savefig.bbox": "tight"}  # for legends below the figure
 Rows = list[dict[str, str]]
 
 
@@ -72,6 +73,12 @@ def draw_peers(rows: Rows, folder: Path) -> Path | None:
         axes.set_xticks(range(len(medians)), of_programs, rotation=20, ha="right")
         axes.set(title=scene, ylabel="million particle-steps per second")
     return saved(figure, folder / "peers.png")
+
+
+def legend_below(figure: plt.Figure, handles: list, columns: int) -> None:
+    """One legend for all panels."""
+    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=min(columns, len(handles)),
+                  columnspacing=1.2, handletextpad=0.4)
 
 
 def saved(figure: plt.Figure, path: Path) -> Path:

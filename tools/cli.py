@@ -6,9 +6,12 @@ import argparse
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import bench_dem
+import bench_gim
+import bench_mapping
 import bench_noise
 import meshes
 import run_case
@@ -34,8 +37,10 @@ def parser() -> argparse.ArgumentParser:
     meshes.add_options(add("mesh", meshes.run, "make the mesh of a case without running it"))
     add("test", run_tests, f"build everything and run the tests, except {SKIPPED_LABELS}; further options go to ctest")
     bench = add("bench", run_benchmarks, "run the benchmarks")
-    bench.add_argument("name", nargs="?", help="only this one")
+    bench.add_argument("name", nargs="?",
+                       help="dem, mapping, noise, gim-figures (the figures of the method's paper), or a part of a program's name")
     bench_dem.add_options(bench)
+    bench_mapping.add_options(bench)
     bench_noise.add_options(bench)
     figures = add("figures", show_figures, "print the figures of a run, or of two side by side")
     figures.add_argument("run", metavar="RUN_DIR", type=Path)
@@ -65,9 +70,13 @@ def run_tests(options: argparse.Namespace) -> int:
 def run_benchmarks(options: argparse.Namespace) -> int:
     build_all(options)
     if options.name == "dem":
-        return bench_dem.run(options)
+        return bench_dem.run(options, parts_of(options, bench_dem.PARTS))
+    if options.name == "mapping":
+        return bench_mapping.run(options, parts_of(options, bench_mapping.PARTS))
     if options.name == "noise":
         return bench_noise.run(options)
+    if options.name == "gim-figures":
+        return bench_gim.run(options)
     found = {path.name: path for path in sorted((build_dir() / "bin").glob("*benchmark*"))}
     if options.name:
         found = {name: path for name, path in found.items() if options.name in name}
@@ -79,6 +88,15 @@ def run_benchmarks(options: argparse.Namespace) -> int:
         if code != 0:
             return code
     return 0
+
+
+def parts_of(options: argparse.Namespace, known: Sequence[str]) -> list[str]:
+    """Of a benchmark: those of --only, or all."""
+    parts = [name for name in options.only.split(",") if name]
+    for name in parts:
+        if name not in known:
+            raise UserError(f"no part {name} of the benchmark (there are {', '.join(known)}); see --help", 2)
+    return parts or list(known)
 
 
 def show_figures(options: argparse.Namespace) -> int:

@@ -12,6 +12,7 @@
 #include "DataFile.hpp"
 #include "DemScene.hpp"
 #include "Drag.hpp"
+#include "MemoryInUse.hpp"
 #include "engine/DemSystem.hpp"
 #include "engine/device/DeviceDem.hpp"
 #include "search/PairSprings.hpp"
@@ -19,12 +20,7 @@
 namespace
 {
 
-/// Memory that the program holds at present, what it gave back excluded [B].
-std::size_t memory_in_use()
-{
-    struct mallinfo2 const all = mallinfo2();
-    return all.uordblks + all.hblkhd;  // small blocks, and those with pages of their own
-}
+using gimdem::benchmark::memory_in_use;
 
 std::size_t peak = 0;  ///< of memory_in_use(), as far as arrays grew [B]
 

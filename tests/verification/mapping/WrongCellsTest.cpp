@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Share of a particle's volume that a method puts into the wrong cells of a cubic lattice, against the exact overlap:
-/// the table of theory.md, (G.30).
+/// the table of theory.md, (G.30), and a table that was sampled elsewhere.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include "CellMeshes.hpp"
 #include "Figure.hpp"
-#include "TestCase.hpp"
-#include "mapping/Mapper.hpp"
+#include "Mapped.hpp"
+#include "SparseWeights.hpp"
+#include "particles/Random.hpp"
 
 namespace
 {
@@ -21,84 +22,175 @@ using namespace gimdem;
 using namespace gimdem::test;
 
 constexpr int cells_along = 7;
-constexpr int position_count = 3000;
-
-/// Spheres of diameter 1/ratio with their centres at random in the middle one of 7^3 unit cells.
-std::vector<Sphere> spheres_in_middle(double ratio)
-{
-    std::mt19937_64 random(23);
-    std::vector<Sphere> spheres;
-    for (int i = 0; i < position_count; ++i)
-    {
-        Vec3 x;
-        for (int axis = 0; axis < 3; ++axis)
-            x[axis] = cells_along / 2 + static_cast<double>(random() >> 11) * 0x1p-53;
-        spheres.push_back({x, 0.5 / ratio});
-    }
-    return spheres;
-}
-
-/// Weights of all particles on all cells: shape=(n_particles, n_cells).
-std::vector<double> weights_of(PolyMesh const& mesh, std::string const& method, ParticleState const& particles)
-{
-    MappingSettings settings;
-    settings.method = method;
-    Mapper mapper(serial, mesh, settings);
-    exec::Buffer<std::uint8_t> walls(mesh.face_count());
-    walls.fill(1);
-    mapper.locate(particles, walls);
-    mapper.compute_weights(particles);
-    CellRows const& rows = mapper.layers();
-    std::int32_t const middle = mapper.cell_of()[0];
-    std::int32_t const length = rows.offsets[middle + 1] - rows.offsets[middle];
-    auto const cells = static_cast<std::size_t>(mesh.cell_count());
-    std::vector<double> all(cells * static_cast<std::size_t>(particles.count()), 0.0);
-    for (std::int64_t p = 0; p < particles.count(); ++p)
-        for (std::int32_t k = 0; k < length; ++k)
-            all[static_cast<std::size_t>(p) * cells + static_cast<std::size_t>(rows.cells[rows.offsets[middle] + k])] =
-                mapper.weights()[p * length + k];
-    return all;
-}
+constexpr double ratios[8] = {1, 1.25, 1.56, 1.76, 2.38, 3, 4, 6};
 
 struct Row
 {
     char const* method;
-    double tolerance;
-    double share[8];  ///< at the ratios below
+    double stated;    ///< error that the table claims
+    double share[8];  ///< at these a / d_p
 };
 
-constexpr double ratios[8] = {1, 1.25, 1.56, 1.76, 2.38, 3, 4, 6};
-
-// By sampling: 400 random places, 20,000 points in the sphere, good to about 0.01 and FBSI's to 0.002, plus half of the
-// last digit. The places alone scatter PCM's mean by 0.0125 and that of the constant coefficient by 0.007: three of
-// these. The points' own noise makes the small numbers of FBSI larger, by 0.0009 where it is least (the same sampling,
-// repeated).
-constexpr Row table[] = {
-    {"pcm", 0.035, {0.471, 0.400, 0.313, 0.282, 0.234, 0.170, 0.131, 0.080}},
-    {"divided", 0.0105, {0.089, 0.079, 0.060, 0.058, 0.046, 0.034, 0.027, 0.018}},
-    {"gim", 0.0105, {0.296, 0.245, 0.206, 0.186, 0.141, 0.113, 0.077, 0.051}},
-    {"gim-fixed", 0.021, {0.090, 0.098, 0.120, 0.136, 0.193, 0.264, 0.353, 0.499}},
-    {"fbsi", 0.0034, {0.018, 0.013, 0.010, 0.007, 0.006, 0.004, 0.0025, 0.0016}},
+// Sampled independently, overlap included: at 400 random places, by 20,000 random points in the sphere. Rounded to the
+// digits that are here. It claims to be good to 0.01 and for fbsi 0.002; for pcm that is just one scatter of the
+// places.
+constexpr Row sampled_table[] = {
+    {"pcm", 1, {0.471, 0.400, 0.313, 0.282, 0.234, 0.170, 0.131, 0.080}},
+    {"divided", 0.01, {0.089, 0.079, 0.060, 0.058, 0.046, 0.034, 0.027, 0.018}},
+    {"gim", 0.01, {0.296, 0.245, 0.206, 0.186, 0.141, 0.113, 0.077, 0.051}},
+    {"gim-fixed", 0.01, {0.090, 0.098, 0.120, 0.136, 0.193, 0.264, 0.353, 0.499}},
+    {"fbsi", 0.002, {0.018, 0.013, 0.010, 0.007, 0.006, 0.004, 0.0025, 0.0016}},
 };
+constexpr int sampled_places = 400, sampled_points = 20'000;
 
-TEST(WrongCells, SharesAreThoseOfTheTable)
+double half_digit(double share)
 {
-    PolyMesh const mesh(hexahedra(cells_along, {1, 1, 1}).mesh());
+    return share < 0.0035 ? 0.00005 : 0.0005;
+}
+
+/// Places in the middle one of 7^3 unit cells, one at random in each of n^3 equal parts of it.
+std::vector<Vec3> places_in_middle(int n, RandomStream& random)
+{
+    std::vector<Vec3> places;
+    for (int i = 0; i < n * n * n; ++i)
+    {
+        double const x = random.unit(), y = random.unit(), z = random.unit();
+        places.push_back(Vec3::Constant(cells_along / 2) + Vec3(i % n + x, i / n % n + y, i / n / n + z) / n);
+    }
+    return places;
+}
+
+/// Spheres of diameter 1/ratio on 7^3 unit cells, and their weights by a method.
+struct Lattice
+{
+    std::vector<SparseRow> weights(char const* name, std::vector<Vec3> const& places, double ratio) const
+    {
+        std::vector<Sphere> spheres;
+        for (Vec3 const& x : places)
+            spheres.push_back({x, 0.5 / ratio});
+        return sparse_rows(Mapped(mesh, method(name), spheres).mapper);
+    }
+
+    PolyMesh mesh{hexahedra(cells_along, {1, 1, 1}).mesh()};
+};
+
+/// Shares of a sphere by random points: the cell of a point is known from its coordinates.
+SparseRow sampled_overlap(Vec3 const& x, double radius, RandomStream& random)
+{
+    SparseRow row;
+    for (int i = 0; i < sampled_points;)
+    {
+        double const a = random.between(-1, 1), b = random.between(-1, 1), c = random.between(-1, 1);
+        if (a * a + b * b + c * c > 1) continue;
+        ++i;
+        Vec3 const point = x + radius * Vec3(a, b, c);
+        auto const at = [&](int axis) { return static_cast<std::int32_t>(point[axis]); };
+        std::int32_t const cell = at(0) + cells_along * (at(1) + cells_along * at(2));
+        auto const entry = std::ranges::find(row, cell, &CellWeight::cell);
+        if (entry == row.end())
+            row.push_back({cell, 1.0 / sampled_points});
+        else
+            entry->weight += 1.0 / sampled_points;
+    }
+    std::ranges::sort(row);
+    return row;
+}
+
+/// Of the shares at many places.
+struct Moments
+{
+    double mean, deviation;
+};
+
+Moments moments_of(std::vector<SparseRow> const& weights, std::vector<SparseRow> const& overlaps)
+{
+    double sum = 0, squares = 0;
+    for (std::size_t p = 0; p < weights.size(); ++p)
+    {
+        double const share = share_in_wrong_cells(weights[p], overlaps[p]);
+        sum += share;
+        squares += share * share;
+    }
+    auto const n = static_cast<double>(weights.size());
+    return {sum / n, std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)))};
+}
+
+/// The table beside ours, by method.
+struct Comparison
+{
+    double deviation = 0;  ///< of the table's numbers from ours, the largest
+    double sampled = 0;    ///< the same with the points' noise on ours
+    double scatter = 0;    ///< of the mean of 400 places, the largest
+
+    void print(std::string const& name) const
+    {
+        figure("wrong_cells_largest_deviation_" + name, deviation);
+        figure("wrong_cells_largest_deviation_as_sampled_" + name, sampled);
+        figure("wrong_cells_largest_scatter_" + name, scatter);
+    }
+};
+
+/// What is mapped at one a / d_p: many places for means, few of which the overlap is sampled too.
+struct AtRatio
+{
+    AtRatio(Lattice const& on, double a_over_d, std::vector<Vec3> const& at_many, std::vector<Vec3> const& at_few)
+        : lattice(on),
+          ratio(a_over_d),
+          many(at_many),
+          few(at_few),
+          exact(on.weights("exact", many, ratio)),
+          exact_few(on.weights("exact", few, ratio))
+    {
+        RandomStream random(31);
+        for (Vec3 const& x : few)
+            sampled.push_back(sampled_overlap(x, 0.5 / ratio, random));
+    }
+
+    /// What the points' own noise adds to the share on average.
+    double noise(char const* name) const
+    {
+        auto const weights = lattice.weights(name, few, ratio);
+        return moments_of(weights, sampled).mean - moments_of(weights, exact_few).mean;
+    }
+
+    void compare(Row const& row, double tabulated, Comparison& all) const
+    {
+        auto const [mean, deviation] = moments_of(lattice.weights(row.method, many, ratio), exact);
+        double const points = noise(row.method), scatter = deviation / std::sqrt(sampled_places);
+        double const tolerance = std::min(row.stated, 3.2 * scatter + half_digit(tabulated));
+        figure(fmt::format("wrong_cells_{}_at_{}", row.method, ratio), mean);
+        EXPECT_NEAR(mean + points, tabulated, row.method == std::string("fbsi") ? row.stated : tolerance)
+            << row.method << " at a/dp = " << ratio;
+        // Sampled and exact overlap are the same: where half of a sphere is in a cell the points err by 0.0028.
+        EXPECT_NEAR(points, 0.0005, 0.0015) << row.method << " at a/dp = " << ratio;
+        all.deviation = std::max(all.deviation, std::abs(mean - tabulated));
+        all.sampled = std::max(all.sampled, std::abs(mean + points - tabulated));
+        all.scatter = std::max(all.scatter, scatter);
+    }
+
+    Lattice const& lattice;
+    double ratio;
+    std::vector<Vec3> many, few;
+    std::vector<SparseRow> exact, exact_few, sampled;
+};
+
+// Were the table sampled again, its places would scatter a mean by `deviation / sqrt(400)`, and its points would add
+// their noise. Of 40 numbers all are within 3.2 scatters in 19 of 20 such tables. Only fbsi's are not (its numbers at
+// 1.56 and 2.38 are 3 to 5 scatters too large, which nothing here explains) but they are within the 0.002 claimed.
+TEST(WrongCells, SharesAreThoseOfTheSampledTable)
+{
+    Lattice const lattice;
+    RandomStream random(23);
+    auto const many = places_in_middle(16, random), few = places_in_middle(6, random);
+    Comparison of_row[std::size(sampled_table)];
     for (std::size_t k = 0; k < 8; ++k)
     {
-        auto const particles = particles_of(spheres_in_middle(ratios[k]));
-        auto const exact = weights_of(mesh, "exact", particles);
-        for (Row const& row : table)
-        {
-            auto const weights = weights_of(mesh, row.method, particles);
-            double distance = 0;
-            for (std::size_t i = 0; i < weights.size(); ++i)
-                distance += std::abs(weights[i] - exact[i]);
-            double const wrong = distance / 2 / position_count;
-            figure(fmt::format("wrong_cells_{}_at_{}", row.method, ratios[k]), wrong);
-            EXPECT_NEAR(wrong, row.share[k], row.tolerance) << row.method << " at a/dp = " << ratios[k];
-        }
+        AtRatio const at(lattice, ratios[k], many, few);
+        for (std::size_t r = 0; r < std::size(sampled_table); ++r)
+            at.compare(sampled_table[r], sampled_table[r].share[k], of_row[r]);
     }
+    for (std::size_t r = 0; r < std::size(sampled_table); ++r)
+        of_row[r].print(sampled_table[r].method);
 }
 
 }  // namespace
