@@ -51,8 +51,7 @@ public:
     void operator()(Quad const& particle, double* shared) const
     {
         double const log_radius = std::log(particle.w);
-        ParticleSize const size{particle.w, 1 / particle.w, log_radius,
-                                tuned_ ? std::exp(-3 * 0.132 * log_radius) : 1};
+        ParticleSize const size{particle.w, 1 / particle.w, log_radius, tuned_ ? std::exp(-3 * 0.132 * log_radius) : 1};
         for (int j = 0; j < at_.octets(); ++j)
             at_.store(j, integrals(size, sizes_[j], at_.distance2(j, particle)), shared);
     }
@@ -97,8 +96,8 @@ private:
         Octet const discriminant = plus_product(m2, a, c);
         auto const crosses = greater(discriminant, zero);
         Octet const sum = m + root(choose(crosses, discriminant, one));
-        Octet const per_s = choose(cell_is_narrow, per_radius, cell.per_radius) *
-                            choose(cell_is_narrow, cell.radius, radius);
+        Octet const per_s =
+            choose(cell_is_narrow, per_radius, cell.per_radius) * choose(cell_is_narrow, cell.radius, radius);
 
         double const h = 0.70710678118654752440;
         Octet const right = c / sum;

@@ -22,9 +22,9 @@ struct PlaneOctet
 /// What kernels see of the planes.
 struct FacePlanesView
 {
-    Quad const* cell;                ///< centroids [m]
-    std::int32_t const* offsets;     ///< planes of cell c are planes[offsets[c] .. offsets[c + 1]), at least one
-    PlaneOctet const* planes;        ///< lanes without a face have a plane that everything is behind of
+    Quad const* cell;             ///< centroids [m]
+    std::int32_t const* offsets;  ///< planes of cell c are planes[offsets[c] .. offsets[c + 1]), at least one
+    PlaneOctet const* planes;     ///< lanes without a face have a plane that everything is behind of
 
     /// How far x is inside of each of eight planes of a cell [m].
     exec::Octet inside(std::int32_t eight, std::int32_t of_cell, Quad const& at) const

@@ -26,8 +26,7 @@ struct PlainGim
         double const sigma_p = phi * particle.w, sigma_c = phi * std::cbrt(0.75 / M_PI * volume_c);
         double const mu = (particle.xyz() - mesh.cell[cell].xyz()).norm();
         double const difference = sigma_c * sigma_c - sigma_p * sigma_p;
-        double const discriminant =
-            mu * mu - 2 * difference * std::log(volume_c * sigma_p / (volume_p * sigma_c));
+        double const discriminant = mu * mu - 2 * difference * std::log(volume_c * sigma_p / (volume_p * sigma_c));
         if (!(discriminant > 0)) return volume_p;
         double const root = sigma_p * sigma_c * std::sqrt(discriminant);
         double const x1 = (-mu * sigma_p * sigma_p - root) / difference;

@@ -108,9 +108,8 @@ TEST(ClosedFormIntegrals, AreTheIntegralInEveryBranch)
                     double shared = -1;
                     integrals({0, mu * radius, 0, radius}, &shared);
                     double const log_ratio = std::log(ratio);
-                    double const expected = GaussianIntegral{radius, log_ratio,
-                                                             fixed > 0 ? fixed : tuned_coefficient(log_ratio)}(
-                        mu * radius);
+                    double const expected = GaussianIntegral{
+                        radius, log_ratio, fixed > 0 ? fixed : tuned_coefficient(log_ratio)}(mu * radius);
                     // Places of crossings are good to some roundings, and the integral's slope in them is below one.
                     EXPECT_NEAR(shared, expected, 4e-15) << ratio << ' ' << mu << ' ' << fixed;
                 }
