@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import bench_dem
+import bench_noise
 import run_case
 from build import build
 from console import ROOT, UserError, build_dir, say, shown
@@ -33,6 +34,7 @@ def parser() -> argparse.ArgumentParser:
     bench = add("bench", run_benchmarks, "run the benchmarks")
     bench.add_argument("name", nargs="?", help="only this one")
     bench_dem.add_options(bench)
+    bench_noise.add_options(bench)
     figures = add("figures", show_figures, "print the figures of a run, or of two side by side")
     figures.add_argument("run", metavar="RUN_DIR", type=Path)
     figures.add_argument("compare", metavar="RUN_DIR2", type=Path, nargs="?")
@@ -62,6 +64,8 @@ def run_benchmarks(options: argparse.Namespace) -> int:
     build_all(options)
     if options.name == "dem":
         return bench_dem.run(options)
+    if options.name == "noise":
+        return bench_noise.run(options)
     found = {path.name: path for path in sorted((build_dir() / "bin").glob("*benchmark*"))}
     if options.name:
         found = {name: path for name, path in found.items() if options.name in name}

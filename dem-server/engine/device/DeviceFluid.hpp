@@ -29,8 +29,14 @@ public:
 
     MeshKernelView view() const
     {
-        return {cells_.data(),   face_centres_.data(), face_normals_.data(), owner_.data(), neighbour_.data(),
-                offsets_.data(), cell_faces_.data(),   internal_faces_,      cell_count()};
+        return {cells_.data(),        face_centres_.data(), face_normals_.data(), owner_.data(),
+                neighbour_.data(),    offsets_.data(),      cell_faces_.data(),   points_.data(),
+                face_offsets_.data(), face_points_.data(),  internal_faces_,      cell_count()};
+    }
+    /// Finds cells; `grid`: that of the host, for its shape.
+    CellFinder finder(BoxGrid const& grid) const
+    {
+        return {view(), grid.view_with(boxes_.data(), bin_offsets_.data(), bin_members_.data(), bin_nearest_.data())};
     }
     LayerView layers() const
     {
@@ -44,7 +50,11 @@ public:
 
 private:
     Array<Quad> cells_, face_centres_, face_normals_;
-    Array<std::int32_t> owner_, neighbour_, offsets_, cell_faces_, layer_offsets_, layer_cells_, row_of_, reverse_slot_;
+    Array<double> points_;
+    Array<std::int32_t> owner_, neighbour_, offsets_, cell_faces_, face_offsets_, face_points_;
+    Array<CellBox> boxes_;
+    Array<std::int32_t> bin_offsets_, bin_members_, bin_nearest_;
+    Array<std::int32_t> layer_offsets_, layer_cells_, row_of_, reverse_slot_;
     Array<std::uint8_t> wall_faces_;
     Array<CellSize> cell_sizes_;
     std::int32_t internal_faces_ = 0;
@@ -84,7 +94,6 @@ private:
     template <class Integral>
     void sum_with(Integral const& integral, DeviceParticles<Device> const& particles);
     void stage(coupling::Span<double const> from, Quad* to) const;
-    void start_near(DeviceParticles<Device>& particles);
 
     Device& device_;
     FluidScene const* scene_ = nullptr;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/device/DeviceFluid.hpp"
+#include "engine/device/DeviceNeighbors.hpp"
 #include "engine/device/Reductions.hpp"
 
 namespace gimdem
@@ -48,6 +49,15 @@ void DeviceMesh<Device>::upload(Device& device, FluidScene const& scene)
     neighbour_.upload(device, {from.neighbour, static_cast<std::size_t>(internal_faces_)});
     offsets_.upload(device, {from.cell_offsets, cells + 1});
     cell_faces_.upload(device, {from.cell_faces, static_cast<std::size_t>(from.cell_offsets[cells])});
+    coupling::Mesh const& topology = scene.mesh.topology();
+    points_.upload(device, topology.points);
+    face_offsets_.upload(device, topology.face_offsets);
+    face_points_.upload(device, topology.face_points);
+    BoxGrid const& grid = scene.mapper.cell_grid();
+    boxes_.upload(device, grid.boxes());
+    bin_offsets_.upload(device, grid.offsets());
+    bin_members_.upload(device, grid.members());
+    bin_nearest_.upload(device, grid.nearest());
     wall_faces_.upload(device, scene.wall_faces);
     cell_sizes_.upload(device, gaussian_of(scene).cell_sizes());
 
@@ -164,28 +174,17 @@ std::int64_t DeviceFluid<Device>::clipped()
 }
 
 template <class Device>
-void DeviceFluid<Device>::start_near(DeviceParticles<Device>& particles)
-{
-    exec::Buffer<Quad> position;
-    particles.position.download(device_, position);
-    device_.wait();
-    exec::Buffer<std::int32_t> start(position.size());
-    for (std::int64_t p = 0; p < position.size(); ++p)
-        start[p] = scene_->mapper.start_cells().near(position[p].xyz());
-    particles.cell_of.upload(device_, start);
-    device_.wait();
-}
-
-template <class Device>
 bool DeviceFluid<Device>::locate(DeviceParticles<Device>& particles)
 {
     std::int64_t const n = particles.count();
-    if (particles.cell_of.size() != n) start_near(particles);
+    if (particles.cell_of.size() != n)
+    {
+        particles.cell_of.resize(device_, n);
+        device_.for_each(n, FillKernel<std::int32_t>{particles.cell_of.data(), -1});
+    }
     status_.resize(device_, n);
-    device_.for_each(
-        n,
-        LocateKernel{
-            {mesh_.view()}, particles.position.data(), mesh_.wall_faces(), particles.cell_of.data(), status_.data()});
+    device_.for_each(n, LocateKernel{mesh_.finder(scene_->mapper.cell_grid()), particles.position.data(),
+                                     mesh_.wall_faces(), particles.cell_of.data(), status_.data()});
     sort_(device_, {particles.cell_of.data(), n}, mesh_.cell_count(), by_cell_);
     return highest_(n, EntryOf<std::int32_t, std::uint8_t>{status_.data()}, Highest{}) == 0;
 }
