@@ -71,7 +71,7 @@ private:
     overlap::CellFacetsView facets_{};
     Array<double> corners_at_;
     Array<std::int32_t> facet_offsets_, corner_offsets_, corners_;
-    Array<Quad> facet_normals_;
+    Array<Quad> facet_edges_, facet_normals_;
 };
 
 }  // namespace gimdem

@@ -87,8 +87,19 @@ void DeviceMapping<Device>::upload_facets(Device& device, ExactOverlap const& me
     corner_offsets_.upload(device, from.corner_offsets());
     corners_.upload(device, from.corners());
     facet_normals_.upload(device, from.normals());
-    facets_ = {corners_at_.data(), facet_offsets_.data(), corner_offsets_.data(), corners_.data(),
-               facet_normals_.data(), boxes_, mesh_.cell_offsets, mesh_.cell_faces, mesh_.owner};
+    facet_edges_.upload(device, from.edges());
+    facets_ = {corners_at_.data(),
+               facet_offsets_.data(),
+               corner_offsets_.data(),
+               corners_.data(),
+               facet_edges_.data(),
+               facet_normals_.data(),
+               boxes_,
+               mesh_.cell_offsets,
+               mesh_.cell_faces,
+               mesh_.owner,
+               mesh_.neighbour,
+               mesh_.internal_face_count};
 }
 
 template <class Device>
