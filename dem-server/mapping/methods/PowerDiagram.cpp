@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "exec/Reduce.hpp"
@@ -13,19 +14,26 @@ namespace gimdem
 namespace
 {
 
-/// 1 / (length over which the potential of a cell counts for a ball of the radius r) [1/m], (G.38): 1/r for a ball
-/// that is small against the cell.
-GIMDEM_HD double per_reach(CellPotential const& cell, double r)
+/// Square of how large a ball is against a cell.
+GIMDEM_HD double relative_size2(CellPotential const& cell, double r)
 {
-    return 1 / (r + 0.15 * cell.narrowness * r * r * r);
+    return cell.narrowness * (r * r);
 }
 
-/// Share of a cell whose potential is higher by u, of one whose potential is least: the ratio of the two parts that a
-/// plane at u radii from its centre cuts a ball into, (G.35).
-GIMDEM_HD double odds(double u)
+/// 1 / (height of a cell's potential beyond which a ball of the radius r does not reach it) [1/m], (G.38): 1/r for a
+/// ball that is small against the cell.
+GIMDEM_HD double per_reach(CellPotential const& cell, double r)
 {
-    double const in = 1 - u, out = 1 + u;
-    return in * in * (2 + u) / (out * out * (2 - u));
+    return 1 / (r * std::sqrt(1 + relative_size2(cell, r)));
+}
+
+/// Share of a cell whose potential is higher by u, of one whose potential is least, (G.39): for a ball that is small
+/// against the cell the ratio of the two parts that a plane at u radii from its centre cuts it into.
+GIMDEM_HD double odds(double u, double size2)
+{
+    double const in = (1 - u) * (1 - u) * (2 + u), out = (1 + u) * (1 + u) * (2 - u);
+    double const flatness = 3 * size2 * size2;
+    return in * (1 + flatness) / (out + flatness * in);
 }
 
 struct Law
@@ -44,7 +52,7 @@ struct Law
         for (int k = 0; k < count; ++k)
         {
             double const u = w[k] - least;
-            w[k] = u < 1 ? odds(u) : 0;
+            w[k] = u < 1 ? odds(u, relative_size2(potentials[cells[k]], particle.w)) : 0;
         }
     }
 };
@@ -133,8 +141,9 @@ void PowerDiagram::find_candidates()
                           });
     auto const gives_back = [&](std::int32_t from, std::int32_t to)
     {
-        auto const row = nearby.cells.host().subspan(static_cast<std::size_t>(nearby.offsets[from]) + 1,
-                                                     static_cast<std::size_t>(nearby.offsets[from + 1] - nearby.offsets[from] - 1));
+        auto const row =
+            nearby.cells.host().subspan(static_cast<std::size_t>(nearby.offsets[from]) + 1,
+                                        static_cast<std::size_t>(nearby.offsets[from + 1] - nearby.offsets[from] - 1));
         return may[nearby.offsets[from] + 1 + (std::ranges::lower_bound(row, to) - row.begin())] != 0;
     };
     std::vector<std::int32_t> kept;
