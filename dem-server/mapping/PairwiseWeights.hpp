@@ -22,7 +22,10 @@ struct LayerView
 
 /// A law whose shares depend on the least of the levels of a particle's candidates: law.level(particle, cell).
 template <class Law>
-concept Compares = requires(Law const& law, Quad const& x) { law.level(x, 0); };
+concept Compares = requires(Law const& law, Quad const& x)
+{
+    law.level(x, 0);
+};
 
 /// What the shares of one particle have in common.
 struct ParticleTotal
@@ -90,9 +93,8 @@ struct ShareKernel
             Quad const x = position[p];
             ParticleTotal const of = totals[p];
             double const weight =
-                of.per_total > 0
-                    ? WeightTotalKernel<Law>::share_of(law, x, c, layers.cells[e], of.least) * of.per_total
-                    : (own ? 1.0 : 0.0);
+                of.per_total > 0 ? WeightTotalKernel<Law>::share_of(law, x, c, layers.cells[e], of.least) * of.per_total
+                                 : (own ? 1.0 : 0.0);
             Quad const drag = impulses == nullptr ? Quad{0, 0, 0, 0} : impulses[p].drag;
             sum.add(weight, {drag, sphere_volume(x.w)});
         }

@@ -13,6 +13,7 @@
 #include "mapping/methods/GaussianKernel.hpp"
 #include "mapping/methods/GaussianMethod.hpp"
 #include "mapping/methods/ParticleCentre.hpp"
+#include "mapping/methods/PowerDiagram.hpp"
 
 namespace gimdem
 {
@@ -37,6 +38,8 @@ void DeviceMapping<Device>::upload(Device& device, FluidScene const& scene, Mesh
         kind_ = Kind::kernel, radii_of_kernel_ = kernel->radii();
     else if (auto const* const exact = dynamic_cast<ExactOverlap*>(&method))
         kind_ = Kind::overlap, upload_facets(device, *exact);
+    else if (auto const* const diagram = dynamic_cast<PowerDiagram*>(&method))
+        kind_ = Kind::potentials, potentials_.upload(device, diagram->potentials());
     else
         throw UserError("mapping method \"" + scene.settings.mapping.method +
                         "\" does not run on a GPU (it has no law in mapping/PairLaws.hpp); set another [mapping] "
@@ -111,9 +114,9 @@ void DeviceMapping<Device>::with_law(Work work) const
         case Kind::own_cell:
             return work(WholeOfOwnCell{});
         case Kind::tables:
-            return work(TabulatedIntegral1{{radii_.data(), pairs_.data(), coefficients_.data(), table_shape_.row_count,
-                                            table_shape_.cell_count},
-                                           mesh_.cell});
+            return work(TabulatedIntegral1{
+                {radii_.data(), pairs_.data(), coefficients_.data(), table_shape_.row_count, table_shape_.cell_count},
+                mesh_.cell});
         case Kind::closed_form:
             return work(ClosedFormIntegral1{{cell_sizes_.data(), fixed_coefficient_}, mesh_.cell});
         case Kind::points:
@@ -124,6 +127,8 @@ void DeviceMapping<Device>::with_law(Work work) const
             return work(GaussianAtCentre1{mesh_.cell, radii_of_kernel_});
         case Kind::overlap:
             return work(Overlap1{facets_});
+        case Kind::potentials:
+            return work(PowerDiagram1{{potentials_.data()}});
     }
 }
 

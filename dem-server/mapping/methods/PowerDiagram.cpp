@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "exec/Reduce.hpp"
+#include "mapping/PotentialShare.hpp"
 
 namespace gimdem
 {
@@ -14,46 +15,20 @@ namespace gimdem
 namespace
 {
 
-/// Square of how large a ball is against a cell.
-GIMDEM_HD double relative_size2(CellPotential const& cell, double r)
-{
-    return cell.narrowness * (r * r);
-}
-
-/// 1 / (height of a cell's potential beyond which a ball of the radius r does not reach it) [1/m], (G.38): 1/r for a
-/// ball that is small against the cell.
-GIMDEM_HD double per_reach(CellPotential const& cell, double r)
-{
-    return 1 / (r * std::sqrt(1 + relative_size2(cell, r)));
-}
-
-/// Share of a cell whose potential is higher by u, of one whose potential is least, (G.39): for a ball that is small
-/// against the cell the ratio of the two parts that a plane at u radii from its centre cuts it into.
-GIMDEM_HD double odds(double u, double size2)
-{
-    double const in = (1 - u) * (1 - u) * (2 + u), out = (1 + u) * (1 + u) * (2 - u);
-    double const flatness = 3 * size2 * size2;
-    return in * (1 + flatness) / (out + flatness * in);
-}
-
 struct Law
 {
-    CellPotential const* potentials;
+    PotentialShare of;
 
     GIMDEM_HD void operator()(Quad const& particle, std::int32_t const* cells, int count, double* w) const
     {
         double least = 1e300;
         for (int k = 0; k < count; ++k)
         {
-            CellPotential const& cell = potentials[cells[k]];
-            w[k] = cell(particle) * per_reach(cell, particle.w);
+            w[k] = of.level(particle, cells[k]);
             least = w[k] < least ? w[k] : least;
         }
         for (int k = 0; k < count; ++k)
-        {
-            double const u = w[k] - least;
-            w[k] = u < 1 ? odds(u, relative_size2(potentials[cells[k]], particle.w)) : 0;
-        }
+            w[k] = of.share(particle, cells[k], w[k], least);
     }
 };
 
@@ -162,7 +137,7 @@ void PowerDiagram::find_candidates()
 
 void PowerDiagram::compute_weights(WeightTask const& task)
 {
-    fill_rows(task, Law{potentials_.view().data});
+    fill_rows(task, Law{{potentials_.view().data}});
 }
 
 }  // namespace gimdem

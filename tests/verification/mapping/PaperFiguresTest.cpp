@@ -34,7 +34,8 @@ TEST(PaperFigures, ThreeToFiveShareWhatTheTextSays)
 
 TEST(PaperFigures, SixHasItsLowerBoundFromTheSmallestCoefficientThatKeepsAParticleWhole)
 {
-    // The paper reads 0.36 off its curves; (G.16) is highest, and 1/(2 sqrt 2), for cells hardly larger than a particle.
+    // The paper reads 0.36 off its curves; (G.16) is highest, and 1/(2 sqrt 2), for cells hardly larger than a
+    // particle.
     double const bound = 0.5 / std::sqrt(2.0);
     figure("gim_least_whole_coefficient", bound);
     EXPECT_NEAR(least_whole_coefficient(1 + 1e-6), bound, 1e-6);  // of first order in V_c/V_p - 1
