@@ -22,8 +22,9 @@ MOST_BYTES = 6e9  # a method that needs more for its weights is left out
 
 def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--mesh", metavar="NAMES", default="",
-                         help="mapping: some meshes, or folders with an OpenFOAM mesh of a box (all, see docs/mapping.md)")
-    command.add_argument("--method", metavar="NAMES", default="", help="mapping: some methods (all)")
+                         help="mapping: some meshes, or folders with an OpenFOAM mesh of a box (all, see docs/mapping.md); "
+                              "noise: grids of the wachem bed (A,E)")
+    command.add_argument("--method", metavar="NAMES", default="", help="mapping, noise: some methods (all; pcm,divided,gim,fbsi,exact)")
     command.add_argument("--particles", metavar="NUMBERS", default="",
                          help=f"mapping: how many are timed ({','.join(map(str, COUNTS))})")
     command.add_argument("--to", metavar="FOLDER", type=Path,

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from console import UserError, server_binary, shown
+from meshes import mesh_source
 
 CLIENTS = ("openfoam", "reference")
 DICTIONARIES = {
@@ -92,10 +93,11 @@ def check_grid(case: CaseDescription, grid: str) -> None:
 def check_openfoam_dictionaries(case: CaseDescription) -> None:
     """Every file that gimdemFoam reads is there; the first absent one is named."""
     wanted = dict(DICTIONARIES)
+    mesh = f"system/{mesh_source(case.folder, case.grid).name}"
     if case.grid:
-        wanted[f"system/blockMeshDict.{case.grid}"] = f"mesh of grid {case.grid}"
+        wanted[mesh] = f"mesh of grid {case.grid}; or a script of gmsh, {case.grid}.geo"
     elif not (case.folder / "constant" / "polyMesh" / "points").exists():
-        wanted["system/blockMeshDict"] = "mesh; or a ready one in constant/polyMesh"
+        wanted[mesh] = "mesh; or a script of gmsh, mesh.geo, or a ready mesh in constant/polyMesh"
     for name, purpose in wanted.items():
         if not (case.folder / name).is_file():
             raise UserError(f"{shown(case.folder / name)} is absent (OpenFOAM needs it: {purpose}); "

@@ -19,8 +19,8 @@ KEY = "made-of.sha256"  # of all that a kept mesh depends on
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("case", metavar="CASE_DIR", type=Path, help="a folder with system/GRID.geo, or blockMeshDict.GRID")
-    parser.add_argument("--grid", metavar="X", help="mesh variant (none: system/blockMeshDict)")
+    parser.add_argument("case", metavar="CASE_DIR", type=Path, help="a case, or a folder with system/X.geo")
+    parser.add_argument("--grid", metavar="X", help="mesh variant (none: the only one)")
     parser.add_argument("--to", metavar="FOLDER", type=Path, help="copy it there, as constant/polyMesh")
 
 
@@ -53,17 +53,25 @@ def print_figures(mesh: gmsh_mesh.MeshQuality) -> None:
 
 
 def mesh_source(case: Path, grid: str) -> Path:
-    """What the mesh of a grid is made of: system/GRID.geo where there is one, else OpenFOAM's dictionary."""
-    script = case / "system" / f"{grid}.geo"
-    if grid and script.is_file():
+    """What the mesh of a grid is made of: system/GRID.geo where there is one, else OpenFOAM's dictionary.
+
+    Without a grid: system/mesh.geo, or blockMeshDict."""
+    script = case / "system" / f"{grid or 'mesh'}.geo"
+    if script.is_file():
         return script
     return case / "system" / (f"blockMeshDict.{grid}" if grid else "blockMeshDict")
+
+
+def is_script(source: Path) -> bool:
+    """Of gmsh."""
+    return source.suffix == ".geo"
 
 
 def up_to_date(source: Path) -> tuple[Path, gmsh_mesh.MeshQuality]:
     """The folder CASE/meshes/GRID with the mesh of `source`, made now if need be."""
     grid = source.name.removesuffix(".geo").removeprefix("blockMeshDict").removeprefix(".")
-    folder = source.parents[1] / "meshes" / (grid or "mesh")
+    grid = grid or "mesh"
+    folder = source.parents[1] / "meshes" / grid
     folder.mkdir(parents=True, exist_ok=True)
     wanted = digest(source)
     with alone(folder.parent / ".lock"):
@@ -71,7 +79,7 @@ def up_to_date(source: Path) -> tuple[Path, gmsh_mesh.MeshQuality]:
         if not (key.is_file() and key.read_text() == wanted):
             shutil.rmtree(folder)
             folder.mkdir()
-            say("mesh", f"making grid {grid}; it is kept in {shown(folder)}" if grid else "making it")
+            say("mesh", f"making it of {shown(source)}")
             make(source, folder)
             quality = gmsh_mesh.check(folder)
             key.write_text(wanted)
@@ -79,8 +87,16 @@ def up_to_date(source: Path) -> tuple[Path, gmsh_mesh.MeshQuality]:
         return folder, gmsh_mesh.quality_in(folder / "log.checkMesh")
 
 
+def copy_into(folder: Path, source: Path) -> str:
+    """Give a run the mesh of a script; returns one line about it."""
+    kept, quality = up_to_date(source)
+    shutil.copytree(kept / "constant" / "polyMesh", folder / "constant" / "polyMesh")
+    shutil.copy2(kept / "log.checkMesh", folder / "log.checkMesh")
+    return f"{quality.cells} cells with {quality.faces_per_cell:.1f} faces each, from {shown(kept)}"
+
+
 def make(source: Path, folder: Path) -> None:
-    if source.suffix == ".geo":
+    if is_script(source):
         gmsh_mesh.make(source, folder)
     else:
         gmsh_mesh.prepare(folder)

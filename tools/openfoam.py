@@ -23,10 +23,14 @@ def environment() -> dict[str, str]:
     return env
 
 
+def has_mesh(folder: Path) -> bool:
+    return (folder / "constant" / "polyMesh" / "points").exists()
+
+
 def make_mesh(folder: Path) -> str:
     """Run blockMesh where the case has no ready mesh; returns one line about the mesh."""
     log = folder / "log.blockMesh"
-    if (folder / "constant" / "polyMesh" / "points").exists():
+    if has_mesh(folder):
         return "ready in constant/polyMesh"
     if shutil.which("blockMesh") is None:
         raise UserError("blockMesh is not on the PATH (it makes the mesh); run ./gimdem setup, or source OpenFOAM")

@@ -16,6 +16,7 @@ from build import build, is_built_with_cuda
 from case_folder import CLIENTS, CaseDescription, check_grid, check_openfoam_dictionaries, describe, find_case_file
 from console import UserError, openfoam_client_binary, say, server_binary, shown
 from endpoint import Endpoint
+from meshes import copy_into, is_script, mesh_source
 from process import how_it_ended, spawn
 from record import RunRecord
 from report import print_results
@@ -159,7 +160,7 @@ def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: 
         restart.copy_fluid(run.folder)
         say("restart", shown(restart.checkpoint))
     if not alone:
-        say("mesh", openfoam.make_mesh(run.folder))
+        say("mesh", make_mesh(case, run.folder))
     record = RunRecord(run.folder, run.settings())
     start = time.monotonic()
     outcome = Supervisor(case.timeout).run(run.start_server, endpoint.bound, None if alone else run.start_client)
@@ -173,6 +174,14 @@ def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: 
     if outcome.signal:
         say("stopped", f"by {signal.Signals(outcome.signal).name}, before the end")
     return exit_code(outcome)
+
+
+def make_mesh(case: CaseDescription, folder: Path) -> str:
+    """constant/polyMesh of the run, where a restart or the case has not brought one; returns one line about it."""
+    source = mesh_source(case.folder, case.grid)
+    if is_script(source) and not openfoam.has_mesh(folder):
+        return copy_into(folder, source)
+    return openfoam.make_mesh(folder)
 
 
 def in_words(outcome: Outcome) -> str:

@@ -7,7 +7,9 @@ from pathlib import Path
 
 from case_folder import CaseDescription
 from console import UserError, shown
+from meshes import is_script, mesh_source
 
+UNSTRUCTURED = "unstructured"  # files that take the place of those in system/ where the mesh is made by gmsh
 REFERENCE = "reference.json"  # published means and deviations, drawn into the plots
 
 
@@ -51,5 +53,10 @@ def copy_case(case: CaseDescription, folder: Path) -> None:
     for name in ("0", "constant", "system"):
         if (case.folder / name).is_dir():
             shutil.copytree(case.folder / name, folder / name)
-    if case.grid:
-        shutil.copy2(case.folder / "system" / f"blockMeshDict.{case.grid}", folder / "system" / "blockMeshDict")
+    source = mesh_source(case.folder, case.grid)
+    if is_script(source):
+        # Schemes for cells of any shape.
+        if (folder / "system" / UNSTRUCTURED).is_dir():
+            shutil.copytree(folder / "system" / UNSTRUCTURED, folder / "system", dirs_exist_ok=True)
+    elif case.grid:
+        shutil.copy2(source, folder / "system" / "blockMeshDict")

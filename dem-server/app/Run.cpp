@@ -10,6 +10,7 @@
 
 #include "app/RunLog.hpp"
 #include "core/Error.hpp"
+#include "engine/CellSizeCheck.hpp"
 #include "engine/Checkpoint.hpp"
 #include "engine/CoupledEngine.hpp"
 #include "engine/InletFlow.hpp"
@@ -117,6 +118,8 @@ public:
 
     void start(std::optional<std::filesystem::path> const& restart)
     {
+        std::string const note = note_on_small_cells(mesh_, reach_of(settings_, std::as_const(system_).particles()));
+        if (!note.empty()) fmt::print(stderr, "gimdem-server: note: {}\n", note);
         if (restart)
         {
             system_.prepare();

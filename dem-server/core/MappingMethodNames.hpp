@@ -7,7 +7,7 @@
 namespace gimdem
 {
 
-inline constexpr std::string_view mapping_method_names[] = {"gim",  "gim-fixed", "pcm",       "divided",
-                                                            "fbsi", "kernel",    "diffusion", "exact"};
+inline constexpr std::string_view mapping_method_names[] = {"gim",    "gim-fixed", "pcm",   "divided",      "fbsi",
+                                                            "kernel", "diffusion", "exact", "power-diagram"};
 
 }  // namespace gimdem

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/CoupledEngine.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "core/Error.hpp"
 #include "engine/InletFlow.hpp"
 #include "exec/Reduce.hpp"
 
@@ -41,15 +38,6 @@ Vec3 vector_sum(exec::Execution execution, std::int64_t count, Value value)
     return total.vec();
 }
 
-void refuse_on_devices(MappingSettings const& mapping)
-{
-    if (mapping.method == "gim") return;
-    throw UserError(
-        fmt::format("mapping method \"{}\" does not run on a GPU (only gim does); set [mapping] method = "
-                    "\"gim\", or run on the processor with --device cpu",
-                    mapping.method));
-}
-
 Constant3 constant(Vec3 const& v)
 {
     return {v.x(), v.y(), v.z()};
@@ -72,10 +60,7 @@ CoupledEngine::CoupledEngine(Case const& settings, exec::Execution execution, Po
         wall_faces_[f] = walls.is_wall_face(f);
     system_.set_permutation_listener([this](std::span<std::int32_t const> order) { mapper_.permute(order); });
     if (DeviceDem* const device = system_.device())
-    {
-        refuse_on_devices(settings.mapping);
         device->set_fluid({settings, fluid, mesh, mapper_, wall_faces_}, std::as_const(system_).particles());
-    }
 }
 
 void CoupledEngine::load_fluid(coupling::FluidFields const& fluid)

@@ -13,6 +13,7 @@
 
 #include "core/CaseText.hpp"
 #include "core/Error.hpp"
+#include "engine/Checkpoint.hpp"
 #include "engine/StateFile.hpp"
 #include "exec/Reduce.hpp"
 #include "output/Snapshot.hpp"
@@ -26,7 +27,8 @@ namespace
 /// Everything that decides what a settled bed looks like.
 std::string description(Case const& settings)
 {
-    std::string text = "settled bed 2\n";
+    // With the version of the states, so that a file of an older layout is not found and the bed is settled anew.
+    std::string text = fmt::format("settled bed, layout {}\n", checkpoint_version);
     auto const add = [&](auto const&... values) { ((text += fmt::format("{} ", values)), ...); };
     auto const add_triple = [&](Triple const& t) { add(t[0], t[1], t[2]); };
     add(settings.dem.time_step);

@@ -43,6 +43,15 @@ inline OctetArray choose(OctetMask const& condition, OctetArray const& yes, Octe
     std::memcpy(out.data(), &left, sizeof left);
     return out;
 }
+inline Octet exponential(Octet const& x)
+{
+    OctetArray all;
+    std::memcpy(all.data(), &x, sizeof x);
+    all = all.exp();
+    Octet out;
+    std::memcpy(&out, all.data(), sizeof out);
+    return out;
+}
 
 /// Eight quadruples, transposed.
 struct OctetOfQuads
@@ -51,10 +60,32 @@ struct OctetOfQuads
 };
 
 /// values[place[i]] for each lane.
-inline OctetArray gather(double const* values, Eigen::Array<std::int32_t, octet, 1> const& place)
+inline Octet gather(double const* values, std::int32_t const* place)
 {
-    return OctetArray{{values[place[0]], values[place[1]], values[place[2]], values[place[3]], values[place[4]],
-                       values[place[5]], values[place[6]], values[place[7]]}};
+#ifdef __AVX512F__
+    __m256i at;
+    std::memcpy(&at, place, sizeof at);
+    return {_mm512_i32gather_pd(at, values, sizeof *values)};
+#else
+    Octet out;
+    for (int lane = 0; lane < octet; ++lane)
+        out[lane] = values[place[lane]];
+    return out;
+#endif
+}
+/// Rounds numbers >= 0 down, and writes them as integers.
+inline Octet whole_part(Octet const& x, std::int32_t* whole)
+{
+#ifdef __AVX512F__
+    __m256i const cut = _mm512_cvttpd_epi32(x.v);
+    std::memcpy(whole, &cut, sizeof cut);
+    return {_mm512_cvtepi32_pd(cut)};
+#else
+    Octet out;
+    for (int lane = 0; lane < octet; ++lane)
+        out[lane] = whole[lane] = static_cast<std::int32_t>(x[lane]);
+    return out;
+#endif
 }
 
 namespace detail
@@ -180,6 +211,14 @@ inline OctetOfQuads load(Quad const* values, std::int32_t const* place)
 inline OctetOfQuads load_threes(double const* values, std::int32_t const* place)
 {
     auto const at = [=](int lane) { return values + 3 * static_cast<std::int64_t>(place[lane]); };
+    using detail::load_two;
+    return QuadsOfOctet{load_two(at(0), at(2)), load_two(at(1), at(3)), load_two(at(4), at(6)), load_two(at(5), at(7))}
+        .transposed();
+}
+/// values[4 place[i]] and the three behind it, for each lane.
+inline OctetOfQuads load_fours(double const* values, std::int32_t const* place)
+{
+    auto const at = [=](int lane) { return values + 4 * static_cast<std::int64_t>(place[lane]); };
     using detail::load_two;
     return QuadsOfOctet{load_two(at(0), at(2)), load_two(at(1), at(3)), load_two(at(4), at(6)), load_two(at(5), at(7))}
         .transposed();

@@ -12,6 +12,7 @@ namespace gimdem::exec
 
 /// Bit n is lane n.
 using LaneBits = std::uint32_t;
+inline constexpr LaneBits all_lanes = (1u << octet) - 1;
 
 inline LaneBits greater_lanes(Octet const& a, Octet const& b)
 {
@@ -44,6 +45,17 @@ inline void keep(LaneBits chosen, std::int32_t const* from, std::int32_t* to)
 #else
     for (int lane = 0; lane < octet; ++lane)
         if ((chosen >> lane & 1) != 0) *to++ = from[lane];
+#endif
+}
+
+/// Writes the first `count` lanes, up to all, and nothing behind them.
+inline void store_first(Octet const& from, int count, double* to)
+{
+#ifdef __AVX512F__
+    _mm512_mask_storeu_pd(to, static_cast<__mmask8>((1u << count) - 1), from.v);
+#else
+    for (int lane = 0; lane < count; ++lane)
+        to[lane] = from[lane];
 #endif
 }
 

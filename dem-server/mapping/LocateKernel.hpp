@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Cell of a particle, theory.md (G.3).
+/// Cell of a particle, theory.md (G.3), (G.3a).
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 namespace gimdem
 {
 
-/// Walks from the last cell to the one that holds the particle now; status 1 where it left the mesh, 2 where it sank
+/// Goes from the last cell to the one that holds the particle now; status 1 where it left the mesh, 2 where it sank
 /// into a wall.
 struct LocateKernel
 {
-    CellWalker walk;
+    CellFinder find;
     Quad const* position;
     std::uint8_t const* wall_faces;
     std::int32_t* cell_of;
@@ -22,10 +22,10 @@ struct LocateKernel
     GIMDEM_HD void operator()(std::int64_t p) const
     {
         Quad const x = position[p];
-        Location const at = walk(cell_of[p], x.xyz());
+        Location const at = find(cell_of[p], x.xyz());
         cell_of[p] = at.cell;
-        bool const inside_a_wall = at.face >= walk.mesh.internal_face_count && wall_faces[at.face] != 0;
-        bool const between_cells = at.face >= 0 && at.face < walk.mesh.internal_face_count;
+        bool const inside_a_wall = at.face >= find.mesh.internal_face_count && wall_faces[at.face] != 0;
+        bool const between_cells = at.face >= 0 && at.face < find.mesh.internal_face_count;
         bool const outside = at.face >= 0 && !between_cells && !(inside_a_wall && at.outside < x.w);
         status[p] = static_cast<std::uint8_t>(outside ? (inside_a_wall ? 2 : 1) : 0);
     }

@@ -6,6 +6,7 @@
 #include "core/Error.hpp"
 #include "exec/ForEach.hpp"
 #include "mapping/LocateKernel.hpp"
+#include "mesh/NearbyCells.hpp"
 
 namespace gimdem
 {
@@ -76,7 +77,7 @@ struct TakeKernel
 }  // namespace
 
 Mapper::Mapper(exec::Execution execution, PolyMesh const& mesh, MappingSettings const& settings)
-    : execution_(execution), mesh_(mesh), method_(make_method(settings, execution, mesh)), start_cells_(mesh)
+    : execution_(execution), mesh_(mesh), method_(make_method(settings, execution, mesh)), cell_grid_(cell_boxes(mesh))
 {
     find_reverse_slots();
 }
@@ -104,22 +105,17 @@ void Mapper::locate(ParticleState const& particles, exec::Buffer<std::uint8_t> c
         cell_of_.resize(n);
         cell_of_.fill(-1);
     }
-    for (std::int64_t p = 0; p < n; ++p)
-        if (cell_of_[p] < 0) cell_of_[p] = start_cells_.near(particles.position[p].xyz());
+    CellFinder const find{mesh_.view(), cell_grid_.view()};
     exec::Buffer<std::uint8_t> status(n);
-    LocateKernel const kernel{{mesh_.view()},
-                              particles.position.view().data,
-                              wall_faces.view().data,
-                              cell_of_.view().data,
-                              status.view().data};
-    exec::for_each(execution_, n, kernel);
+    exec::for_each(execution_, n,
+                   LocateKernel{find, particles.position.view().data, wall_faces.view().data, cell_of_.view().data,
+                                status.view().data});
     left_.clear();
     for (std::int64_t p = 0; p < n; ++p)
     {
         if (status[p] == 2) refuse_outside(particles, p);
         if (status[p] == 1)
-            left_.push_back({static_cast<std::int32_t>(p),
-                             CellWalker{mesh_.view()}(cell_of_[p], particles.position[p].xyz()).face});
+            left_.push_back({static_cast<std::int32_t>(p), find(cell_of_[p], particles.position[p].xyz()).face});
     }
     exec::group_by_key(execution_, cell_of_.host(), mesh_.cell_count(), by_cell_);
 }
@@ -165,9 +161,16 @@ WeightRows Mapper::rows() const
             by_cell_.members.view().data, first_weight_.view().data};
 }
 
+bool Mapper::prepare(ParticleState const& particles)
+{
+    if (!method_->prepare(particles)) return false;
+    find_reverse_slots();
+    return true;
+}
+
 void Mapper::compute_weights(ParticleState const& particles)
 {
-    if (method_->prepare(particles)) find_reverse_slots();
+    prepare(particles);
     lay_out_rows();
     method_->compute_weights({execution_, particles, occupied_, rows(), weights_.view().data});
 }

@@ -14,7 +14,7 @@
 #include "exec/Sort.hpp"
 #include "mapping/Method.hpp"
 #include "mapping/Share.hpp"
-#include "mesh/PointLocator.hpp"
+#include "mesh/BoxGrid.hpp"
 #include "mesh/PolyMesh.hpp"
 #include "particles/ParticleState.hpp"
 
@@ -31,6 +31,9 @@ public:
     /// left(). Throws UserError, naming the particle and the place, for one that sank deeper into a wall than its
     /// radius.
     void locate(ParticleState const& particles, exec::Buffer<std::uint8_t> const& wall_faces);
+
+    /// Sees to candidates for particles of these sizes. True where layers() are not the ones of before.
+    bool prepare(ParticleState const& particles);
 
     /// Weights of every particle by the method of the settings.
     void compute_weights(ParticleState const& particles);
@@ -64,7 +67,7 @@ public:
     CellRows const& layers() const { return method_->candidates(); }
 
     // What a device needs to do the same.
-    StartCells const& start_cells() const { return start_cells_; }
+    BoxGrid const& cell_grid() const { return cell_grid_; }
     Method& method() { return *method_; }
     exec::Buffer<std::int32_t> const& reverse_slot() const { return reverse_slot_; }
 
@@ -76,7 +79,7 @@ private:
     exec::Execution execution_;
     PolyMesh const& mesh_;
     std::unique_ptr<Method> method_;
-    StartCells start_cells_;
+    BoxGrid cell_grid_;
     /// For entry k of layers: place of the row's cell in the row of cells[k].
     exec::Buffer<std::int32_t> reverse_slot_;
     exec::Buffer<std::int32_t> cell_of_;

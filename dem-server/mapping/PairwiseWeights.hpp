@@ -1,46 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Weights (G.8) and sums with them where each pair of a particle and a cell is computed by itself. No weight is kept:
-/// a device computes one faster than it reads one.
+/// Weights (G.8) and sums with them where each pair of a particle and a cell is computed by itself, by a law of
+/// PairLaws.hpp. No weight is kept: a device computes one faster than it reads one.
 #pragma once
 
 #include <cstdint>
 
 #include "mapping/Share.hpp"
-#include "mapping/WeightKernel.hpp"
 #include "particles/ParticleState.hpp"
 
 namespace gimdem
 {
-
-/// Shared integral I / V_p from the tables.
-struct TabulatedIntegral1
-{
-    GaussianTableView tables;
-    Quad const* cell;
-
-    GIMDEM_HD double operator()(Quad const& particle, std::int32_t c) const
-    {
-        double const dx = particle.x - cell[c].x, dy = particle.y - cell[c].y, dz = particle.z - cell[c].z;
-        return tables(tables.row(particle.w)[c], dx * dx + dy * dy + dz * dz);
-    }
-};
-
-/// The same by the closed form (G.6).
-struct ClosedFormIntegral1
-{
-    CellSize const* sizes;
-    Quad const* cell;
-
-    GIMDEM_HD double operator()(Quad const& particle, std::int32_t c) const
-    {
-        double const log_radius = std::log(particle.w);
-        double const tuning = 0.579 * std::exp(3 * 0.132 * log_radius);
-        ParticleAndCell<double> const pair{particle.w, sizes[c].radius / particle.w, sizes[c].log_radius - log_radius,
-                                           tuning * sizes[c].tuning};
-        auto const tails = pair((particle.xyz() - cell[c].xyz()).norm());
-        return tails.sum(std::erfc(tails.x[0]), std::erfc(tails.x[1]), std::erfc(tails.x[2]), std::erfc(tails.x[3]));
-    }
-};
 
 /// The cells around each cell: entry e of layer_cells is a candidate of the particles in cell row_of[e].
 struct LayerView
@@ -51,11 +20,11 @@ struct LayerView
     std::int32_t const* reverse_slot;  ///< place of the row's cell in the row of cells[e]
 };
 
-/// 1 / (sum of the integrals of a particle); 0 where all underflow and the own cell takes all.
-template <class Integral>
+/// 1 / (sum of a particle's shares); 0 where all underflow and the own cell takes all.
+template <class Law>
 struct WeightTotalKernel
 {
-    Integral integral;
+    Law law;
     LayerView layers;
     Quad const* position;
     std::int32_t const* cell_of;
@@ -67,16 +36,16 @@ struct WeightTotalKernel
         std::int32_t const c = cell_of[p];
         double total = 0;
         for (std::int32_t e = layers.offsets[c]; e < layers.offsets[c + 1]; ++e)
-            total += integral(x, layers.cells[e]);
+            total += law(x, c, layers.cells[e]);
         per_total[p] = total > 0 ? 1 / total : 0;
     }
 };
 
 /// What the particles of a cell give to one of their candidates, entry e of the layers.
-template <class Integral>
+template <class Law>
 struct ShareKernel
 {
-    Integral integral;
+    Law law;
     LayerView layers;
     Quad const* position;
     Impulse const* impulses;  ///< null: volumes only
@@ -95,7 +64,7 @@ struct ShareKernel
             std::int32_t const p = members[m];
             Quad const x = position[p];
             double const scale = per_total[p];
-            double const weight = scale > 0 ? integral(x, layers.cells[e]) * scale : (own ? 1.0 : 0.0);
+            double const weight = scale > 0 ? law(x, c, layers.cells[e]) * scale : (own ? 1.0 : 0.0);
             Quad const drag = impulses == nullptr ? Quad{0, 0, 0, 0} : impulses[p].drag;
             sum.add(weight, {drag, sphere_volume(x.w)});
         }

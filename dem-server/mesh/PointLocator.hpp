@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Which cell holds a point: walk across faces from a nearby cell, theory.md (G.3).
+/// Which cell holds a point: walk across faces from a nearby cell, then settle what is near warped faces or in cells
+/// that are not convex, theory.md (G.3), (G.3a).
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
-#include "exec/Buffer.hpp"
+#include "mesh/BoxGrid.hpp"
+#include "mesh/CellSide.hpp"
 #include "mesh/PolyMesh.hpp"
 
 namespace gimdem
 {
 
-/// Where a walk ended.
+/// Where a search ended.
 struct Location
 {
     std::int32_t cell;  ///< the cell that holds the point or, outside the mesh, the last one before the boundary
     double outside;     ///< how far the point is outside of that cell [m]; <= 0 inside
     std::int32_t face;  ///< the face it is outside of; -1 inside
+    bool is_certain;    ///< it is behind all faces by more than they are warped: no other cell holds it
 };
 
 /// Walks from a start cell through the face that the point is farthest outside of. A walk that meets the boundary goes
@@ -28,49 +30,82 @@ struct CellWalker
 
     GIMDEM_HD Location operator()(std::int32_t start, Vec3 const& x) const
     {
-        Location best{start, 1e300, -1};
-        std::int32_t cell = start;
+        Location best{start, 1e300, -1, false};
+        std::int32_t cell = start, mark = -1;
         for (int step = 0; step < most_steps; ++step)
         {
-            double worst = 0, worst_internal = 0;
-            std::int32_t worst_face = -1, next = -1;
-            for (std::int32_t k = mesh.cell_offsets[cell]; k < mesh.cell_offsets[cell + 1]; ++k)
-            {
-                std::int32_t const face = mesh.cell_faces[k];
-                double const outside = mesh.distance_outside(face, cell, x);
-                if (outside > worst)
-                {
-                    worst = outside;
-                    worst_face = face;
-                }
-                if (outside > worst_internal && face < mesh.internal_face_count)
-                {
-                    worst_internal = outside;
-                    next = mesh.across(face, cell);
-                }
-            }
-            if (worst_face < 0) return {cell, 0, -1};
-            if (worst <= best.outside) best = {cell, worst, worst_face};
-            if (next < 0) return best;
+            std::int32_t next = -1;
+            Location const here = look_from(cell, x, next);
+            if (here.face < 0) return here;
+            if (here.outside <= best.outside) best = here;
+            if (next < 0 || next == mark) return best;
+            // The mark moves less and less often, so that a circle of any length meets it.
+            if ((step & (step - 1)) == 0) mark = cell;
             cell = next;
         }
         return best;
     }
 
     static constexpr int most_steps = 512;
-};
-
-/// A start cell for any point: a grid over the mesh whose boxes know a cell near their middle.
-class StartCells
-{
-public:
-    explicit StartCells(PolyMesh const& mesh);
-    std::int32_t near(Vec3 const& x) const;
 
 private:
-    Vec3 low_, box_;
-    std::int32_t n_[3];
-    std::vector<std::int32_t> cell_;
+    /// How far x is outside of a cell; `next`: the cell across the worst of its internal faces, -1 if it is behind all.
+    GIMDEM_HD Location look_from(std::int32_t cell, Vec3 const& x, std::int32_t& next) const
+    {
+        Location here{cell, 0, -1, true};
+        double worst_internal = 0;
+        for (std::int32_t k = mesh.cell_offsets[cell]; k < mesh.cell_offsets[cell + 1]; ++k)
+        {
+            std::int32_t const face = mesh.cell_faces[k];
+            double const outside = mesh.distance_outside(face, cell, x);
+            here.is_certain = here.is_certain && outside < -mesh.face_normal[face].w;
+            if (outside > here.outside)
+            {
+                here.outside = outside;
+                here.face = face;
+            }
+            if (outside > worst_internal && face < mesh.internal_face_count)
+            {
+                worst_internal = outside;
+                next = mesh.across(face, cell);
+            }
+        }
+        return here;
+    }
+};
+
+/// The cell of a point whatever the shape of the cells, and the same one from whatever cell the search starts: the cell
+/// whose faces, as fans of triangles, enclose it; on a face, an edge or a corner that of the lowest number (G.3a).
+struct CellFinder
+{
+    MeshKernelView mesh;
+    BoxGridView grid;
+
+    /// `last`: where to begin, or -1.
+    GIMDEM_HD Location operator()(std::int32_t last, Vec3 const& x) const
+    {
+        CellWalker const walk{mesh};
+        Location const here = walk(last < 0 ? grid.near(x) : last, x);
+        if (here.is_certain) return here;
+        std::int32_t const cell = enclosing_cell(x);
+        if (cell >= 0) return {cell, 0, -1, false};
+        if (here.face < 0 || last < 0) return here;
+        Location const other = walk(grid.near(x), x);
+        return other.outside < here.outside ? other : here;
+    }
+
+private:
+    /// -1 outside of the mesh.
+    GIMDEM_HD std::int32_t enclosing_cell(Vec3 const& x) const
+    {
+        std::int64_t const bin = grid.bin(x);
+        for (std::int32_t m = grid.offsets[bin]; m < grid.offsets[bin + 1]; ++m)
+        {
+            std::int32_t const cell = grid.members[m];
+            if (grid.boxes[cell].holds(x) && CellSide{mesh}(cell, x) != Side::outside) return cell;
+        }
+        return -1;
+    }
 };
 
 }  // namespace gimdem

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/Error.hpp"
 #include "exec/Sort.hpp"
+#include "mesh/GeometryCheck.hpp"
 
 namespace gimdem
 {
@@ -17,6 +20,7 @@ PolyMesh::PolyMesh(coupling::Mesh topology) : topology_(std::move(topology))
     compute_faces();
     list_cell_faces();
     compute_cells();
+    check_geometry(*this);
     low_ = Vec3::Constant(std::numeric_limits<double>::infinity());
     high_ = -low_;
     for (std::size_t p = 0; p < topology_.points.size() / 3; ++p)
@@ -56,9 +60,10 @@ std::span<std::int32_t const> PolyMesh::faces_of_cell(std::int32_t cell) const
 
 MeshKernelView PolyMesh::view() const
 {
-    return {cells_.view().data,      face_centres_.view().data,  face_normals_.view().data,
-            topology_.owner.data(),  topology_.neighbour.data(), cell_offsets_.view().data,
-            cell_faces_.view().data, internal_face_count(),      cell_count()};
+    return {cells_.view().data,           face_centres_.view().data,  face_normals_.view().data,
+            topology_.owner.data(),       topology_.neighbour.data(), cell_offsets_.view().data,
+            cell_faces_.view().data,      topology_.points.data(),    topology_.face_offsets.data(),
+            topology_.face_points.data(), internal_face_count(),      cell_count()};
 }
 
 // A face is a fan of triangles around the mean of its points; centre and area are their area-weighted sums (the
@@ -93,9 +98,19 @@ void PolyMesh::compute_faces()
                 fmt::format("face {} near ({:.6g}, {:.6g}, {:.6g}) m has no area (its cells cannot be "
                             "told apart); check the mesh, e.g. with checkMesh",
                             f, middle.x(), middle.y(), middle.z()));
-        face_centres_[f] = Quad::of(moment / sum, size);
-        face_normals_[f] = Quad::of(area / size, 0);
+        Vec3 const centre = moment / sum, normal = area / size;
+        face_centres_[f] = Quad::of(centre, size);
+        face_normals_[f] = Quad::of(normal, warp(f, centre, normal, middle));
     }
+}
+
+// Off by less than rounding is flat.
+double PolyMesh::warp(std::int32_t face, Vec3 const& centre, Vec3 const& normal, Vec3 const& middle) const
+{
+    double most = std::abs((middle - centre).dot(normal));
+    for (std::int32_t const p : points_of_face(face))
+        most = std::max(most, std::abs((point(p) - centre).dot(normal)));
+    return most < 1e-12 * std::sqrt(face_centres_[face].w) ? 0 : most;
 }
 
 void PolyMesh::list_cell_faces()

@@ -17,11 +17,14 @@ struct MeshKernelView
 {
     Quad const* cell;                  ///< centroid [m], w: volume [m^3]
     Quad const* face_centre;           ///< centroid [m], w: area [m^2]
-    Quad const* face_normal;           ///< unit, out of the owner
+    Quad const* face_normal;           ///< unit, out of the owner; w: how far its points are off its plane [m]
     std::int32_t const* owner;         ///< cell numbers
     std::int32_t const* neighbour;     ///< cell numbers; internal faces only
     std::int32_t const* cell_offsets;  ///< faces of cell c are cell_faces[cell_offsets c .. c + 1)
     std::int32_t const* cell_faces;
+    double const* points;              ///< shape=(n_points, 3) [m]
+    std::int32_t const* face_offsets;  ///< points of face f are face_points[face_offsets f .. f + 1)
+    std::int32_t const* face_points;
     std::int32_t internal_face_count;
     std::int32_t cell_count;
 
@@ -43,8 +46,8 @@ struct MeshKernelView
 class PolyMesh
 {
 public:
-    /// Throws UserError for a cell with no faces, a volume that is not positive, or a face without area: names the
-    /// cell or face, its place and what to do.
+    /// Throws UserError for what check_geometry() refuses, and for a cell with no faces, a volume that is not positive
+    /// or a face without area: names the cell or face, its place and what to do.
     explicit PolyMesh(coupling::Mesh topology);
 
     std::int32_t cell_count() const { return topology_.cell_count; }
@@ -61,13 +64,15 @@ public:
     double face_area(std::int32_t face) const { return face_centres_[face].w; }  ///< [m^2]
     Vec3 face_centre(std::int32_t face) const { return face_centres_[face].xyz(); }
     Vec3 face_normal(std::int32_t face) const { return face_normals_[face].xyz(); }
-    Vec3 low() const { return low_; }    ///< corner of the bounding box [m]
-    Vec3 high() const { return high_; }  ///< the other one [m]
+    double face_warp(std::int32_t face) const { return face_normals_[face].w; }  ///< (G.3) [m]
+    Vec3 low() const { return low_; }                                            ///< corner of the bounding box [m]
+    Vec3 high() const { return high_; }                                          ///< the other one [m]
 
     MeshKernelView view() const;
 
 private:
     void compute_faces();
+    double warp(std::int32_t face, Vec3 const& centre, Vec3 const& normal, Vec3 const& middle) const;
     void list_cell_faces();
     void compute_cells();
 

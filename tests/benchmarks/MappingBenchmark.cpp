@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Time of the mapping's parts for 17,563 particles on Grid B of cases/wachem-bed, and of the weights of each method on
-/// cubic cells at a/dp = 1.76, on one thread.
+/// cubic cells at a/dp = 1.76 beside the same computed plainly, on one thread.
 #include <benchmark/benchmark.h>
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <memory>
+
 #include "BoxMesh.hpp"
+#include "PlainMappings.hpp"
 #include "TestCase.hpp"
 #include "core/MappingMethodNames.hpp"
 #include "mapping/Mapper.hpp"
@@ -79,11 +83,12 @@ BENCHMARK_CAPTURE(time_per_particle, sums, radius, sums)->Unit(benchmark::kMilli
 namespace
 {
 
-/// 10,000 particles among 20^3 cubic cells of the edge a.
+/// 10,000 particles among 20^3 cubic cells of the edge a, of radii that differ by up to `spread`.
 struct CubicCells
 {
-    explicit CubicCells(std::string_view method)
-        : particles(test::particles_of(test::random_spheres(10'000, {0, 0, 0}, {20, 20, 20}, 0.5 / 1.76, 0.5 / 1.76)))
+    CubicCells(std::string_view method, double spread)
+        : particles(test::particles_of(
+              test::random_spheres(10'000, {0, 0, 0}, {20, 20, 20}, radius * (1 - spread), radius * (1 + spread))))
     {
         MappingSettings settings;
         settings.method = method;
@@ -94,21 +99,66 @@ struct CubicCells
         mapper->compute_weights(particles);
     }
 
+    /// The same weights, one pair after the other.
+    template <class Shares>
+    void compute_plainly(Shares const& share)
+    {
+        CellRows const& rows = mapper->layers();
+        double weights[64];
+        for (std::int64_t p = 0; p < particles.count(); ++p)
+        {
+            std::int32_t const c = mapper->cell_of()[p];
+            test::plain_weights(share, particles.position[p], rows.cells.view().data + rows.offsets[c],
+                                rows.offsets[c + 1] - rows.offsets[c], weights);
+            benchmark::DoNotOptimize(weights[0]);
+        }
+    }
+
+    static constexpr double radius = 0.5 / 1.76;
     PolyMesh mesh{test::BoxMesh::make({20, 20, 20}, {20, 20, 20})};
     ParticleState particles;
     std::unique_ptr<Mapper> mapper;
+    overlap::CellFacets facets{mesh};
 };
 
-void time_method(benchmark::State& state, std::string const& method)
+double seconds(auto const& work)
 {
-    CubicCells cells(method);
+    auto const start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Counters `name`_us_per_particle and, where the method has a plain form, `name`_speedup_over_scalar: the time of
+/// tests/support/PlainMappings.hpp over its own, by turns.
+void time_method(benchmark::State& state, std::string const& method, std::string name, double spread)
+{
+    CubicCells cells(method, spread);
+    double quick = 0, plain = 0;
     for (auto _ : state)
-        cells.mapper->compute_weights(cells.particles);
-    std::string name = method + "_us_per_particle";
+    {
+        double const time = seconds([&] { cells.mapper->compute_weights(cells.particles); });
+        state.SetIterationTime(time);
+        quick += time;
+        plain += seconds(
+            [&]
+            {
+                if (method == "gim") cells.compute_plainly(test::PlainGim{cells.mesh.view()});
+                if (method == "fbsi") cells.compute_plainly(test::PlainFbsi{cells.mesh.view()});
+                if (method == "exact") cells.compute_plainly(test::PlainExact{cells.facets.view()});
+            });
+    }
     std::ranges::replace(name, '-', '_');
-    state.counters[name] =
-        benchmark::Counter(1e-6 * double(cells.particles.count()),
-                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    auto const per_particle = 1e6 / double(state.iterations() * cells.particles.count());
+    state.counters[name + "_us_per_particle"] = quick * per_particle;
+    if (method == "gim" || method == "fbsi" || method == "exact")
+        state.counters[name + "_speedup_over_scalar"] = plain / quick;
+}
+
+void add_method(std::string const& method, std::string const& name, double spread)
+{
+    benchmark::RegisterBenchmark(fmt::format("method/{}", name).c_str(), time_method, method, name, spread)
+        ->Unit(benchmark::kMillisecond)
+        ->UseManualTime();
 }
 
 }  // namespace
@@ -116,8 +166,10 @@ void time_method(benchmark::State& state, std::string const& method)
 int main(int argc, char** argv)
 {
     for (std::string_view const method : mapping_method_names)
-        benchmark::RegisterBenchmark(fmt::format("method/{}", method).c_str(), time_method, std::string(method))
-            ->Unit(benchmark::kMillisecond);
+        add_method(std::string(method), std::string(method), 0);
+    // More radii than there are tables for.
+    for (std::string const method : {"gim", "gim-fixed"})
+        add_method(method, method + "-many-radii", 0.05);
     benchmark::Initialize(&argc, argv);
     benchmark::RunSpecifiedBenchmarks();
     return 0;

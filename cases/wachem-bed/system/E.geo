@@ -1,9 +1,10 @@
-// Grid E: 7,160 polyhedra, 2.39 particle diameters
+// Grid E: 7,325 polyhedra, 2.37 particle diameters
 
-h = 2.8e-3; // [m]
-g = 0.72;
+layers = 2;
+h = 3.84e-3; // [m]
+g = 0.4;
 d = 1e-3; // [m]
 
 Include "box.geo";
 
-Physical Volume("polyhedra") = {1};
+Physical Volume("polyhedra") = {Volume{:}};

@@ -1,10 +1,10 @@
-// Grid T: 18,780 tetrahedra, 1.73 particle diameters
+// Grid T: 17,991 tetrahedra, 1.76 particle diameters
 
-h = 4.6e-3; // [m]
+layers = 2;
+h = 6.15e-3; // [m]
 g = 0;
 d = 1e-3; // [m]
 
 Include "box.geo";
-Mesh.Algorithm3D = 10; // HXT: Delaunay has a fifth more or less with this size
 
-Physical Volume("tetrahedra") = {1};
+Physical Volume("tetrahedra") = {Volume{:}};

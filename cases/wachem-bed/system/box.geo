@@ -1,19 +1,36 @@
-// The bed's box, 0.09 x 0.008 x 0.5 m, filled with tetrahedra for gmsh. Their size is h inside, (1 + g) h at a wall and
-// yet larger where walls meet, and changes over the depth d: a cell of polyhedra is what is nearest to one point
-// of the tetrahedra, so the points of walls get half a cell, those of edges a quarter
+// The bed's box in tetrahedra for gmsh, of the size h inside, (1 + g) h at a wall and yet larger where walls meet,
+// changing over the depth d. A polyhedron is what is nearest to one point of the tetrahedra: points of walls get half
+// a cell, those of edges a quarter, so they have to be farther from each other. With layers = 2 or more, points lie on
+// planes that divide the thickness, and all cells have about one volume
 
 SetFactory("OpenCASCADE");
 
-Box(1) = {0, 0, 0, 0.09, 0.008, 0.5};
+width = 0.09; // [m]
+thickness = 0.008;
+height = 0.5;
+
+For layer In {1 : layers}
+    Box(layer) = {0, (layer - 1)*thickness/layers, 0, width, thickness/layers, height};
+EndFor
+If (layers > 1)
+    BooleanFragments{ Volume{1 : layers}; Delete; }{}
+EndIf
 
 Field[1] = MathEval;
-Field[1].F = Sprintf("%g*(1 + %g*(Exp(-x/%g) + Exp((x - 0.09)/%g)
-    + Exp(-y/%g) + Exp((y - 0.008)/%g) + Exp(-z/%g) + Exp((z - 0.5)/%g)))", h, g, d, d, d, d, d, d);
+Field[1].F = Sprintf("%g*(1 + %g*(Exp(-x/%g) + Exp((x - %g)/%g)
+    + Exp(-y/%g) + Exp((y - %g)/%g) + Exp(-z/%g) + Exp((z - %g)/%g)))",
+    h, g, d, width, d, d, thickness, d, d, height, d);
 Background Field = 1;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeExtendFromBoundary = 0;
 Mesh.Algorithm3D = 1; // Delaunay
 
-Physical Surface("inlet") = {5};
-Physical Surface("outlet") = {6};
-Physical Surface("walls") = {1:4};
+e = 1e-6;
+inlet() = Surface In BoundingBox {-e, -e, -e, width + e, thickness + e, e};
+outlet() = Surface In BoundingBox {-e, -e, height - e, width + e, thickness + e, height + e};
+walls() = Abs(CombinedBoundary { Volume{:}; });
+walls() -= {inlet(), outlet()};
+
+Physical Surface("inlet") = {inlet()};
+Physical Surface("outlet") = {outlet()};
+Physical Surface("walls") = {walls()};

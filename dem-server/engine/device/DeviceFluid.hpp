@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "engine/device/DeviceDem.hpp"
+#include "engine/device/DeviceMapping.hpp"
 #include "engine/device/DeviceParticles.hpp"
 #include "exec/device/DeviceReduce.hpp"
 #include "exec/device/DeviceSort.hpp"
 #include "forces/LoadLaw.hpp"
 #include "mapping/LocateKernel.hpp"
 #include "mapping/PairwiseWeights.hpp"
-#include "mapping/methods/GaussianMethod.hpp"
 
 namespace gimdem
 {
@@ -29,24 +29,27 @@ public:
 
     MeshKernelView view() const
     {
-        return {cells_.data(),   face_centres_.data(), face_normals_.data(), owner_.data(), neighbour_.data(),
-                offsets_.data(), cell_faces_.data(),   internal_faces_,      cell_count()};
+        return {cells_.data(),        face_centres_.data(), face_normals_.data(), owner_.data(),
+                neighbour_.data(),    offsets_.data(),      cell_faces_.data(),   points_.data(),
+                face_offsets_.data(), face_points_.data(),  internal_faces_,      cell_count()};
     }
-    LayerView layers() const
+    /// Finds cells; `grid`: that of the host, for its shape.
+    CellFinder finder(BoxGrid const& grid) const
     {
-        return {layer_offsets_.data(), layer_cells_.data(), row_of_.data(), reverse_slot_.data()};
+        return {view(), grid.view_with(boxes_.data(), bin_offsets_.data(), bin_members_.data(), bin_nearest_.data())};
     }
     Quad const* cells() const { return cells_.data(); }
     std::int32_t cell_count() const { return static_cast<std::int32_t>(cells_.size()); }
-    std::int64_t layer_entries() const { return layer_cells_.size(); }
     std::uint8_t const* wall_faces() const { return wall_faces_.data(); }
-    CellSize const* cell_sizes() const { return cell_sizes_.data(); }
+    CellBox const* boxes() const { return boxes_.data(); }
 
 private:
     Array<Quad> cells_, face_centres_, face_normals_;
-    Array<std::int32_t> owner_, neighbour_, offsets_, cell_faces_, layer_offsets_, layer_cells_, row_of_, reverse_slot_;
+    Array<double> points_;
+    Array<std::int32_t> owner_, neighbour_, offsets_, cell_faces_, face_offsets_, face_points_;
+    Array<CellBox> boxes_;
+    Array<std::int32_t> bin_offsets_, bin_members_, bin_nearest_;
     Array<std::uint8_t> wall_faces_;
-    Array<CellSize> cell_sizes_;
     std::int32_t internal_faces_ = 0;
 };
 
@@ -66,7 +69,7 @@ public:
     DeviceFluid& operator=(DeviceFluid const&) = delete;
 
     void set_scene(FluidScene const& scene);
-    /// Sees to tables of the Gaussian integral for the sizes of the particles, which are on the host too.
+    /// Sees to what the mapping method needs for the sizes of the particles, which are on the host too.
     void take_sizes(ParticleState const& particles);
     void load(coupling::FluidFields const& fields);
     void set_void_fraction(exec::Buffer<double> const& values) { void_fraction_.upload(device_, values); }
@@ -81,24 +84,20 @@ public:
     ImpulseSums impulse_sums(DeviceParticles<Device> const& particles);
 
 private:
-    template <class Integral>
-    void sum_with(Integral const& integral, DeviceParticles<Device> const& particles);
+    template <class Law>
+    void sum_with(Law const& law, DeviceParticles<Device> const& particles);
     void stage(coupling::Span<double const> from, Quad* to) const;
-    void start_near(DeviceParticles<Device>& particles);
 
     Device& device_;
     FluidScene const* scene_ = nullptr;
     std::unique_ptr<FluidScene> kept_;
     DeviceMesh<Device> mesh_;
+    DeviceMapping<Device> mapping_;
     Array<Quad> velocity_, pressure_gradient_, void_gradient_;
     Array<double> velocity_gradient_, void_fraction_, per_total_;
     Array<FluidLoad> loads_;
     Array<std::int32_t> clips_;
     Array<std::uint8_t> status_;
-    bool has_tables_ = false;
-    GaussianTableView table_shape_{};
-    Array<double> radii_, coefficients_;
-    Array<TabulatedPair> pairs_;
     exec::DeviceSort<Device> sort_;
     exec::DeviceGroups<Device> by_cell_;
     Array<Share> shares_, sums_;

@@ -5,16 +5,12 @@
 #include <algorithm>
 
 #include "engine/device/DeviceFluid.hpp"
+#include "engine/device/DeviceMapping.t.hpp"
+#include "engine/device/DeviceNeighbors.hpp"
 #include "engine/device/Reductions.hpp"
 
 namespace gimdem
 {
-
-/// The only method that devices have: CoupledEngine refuses the others.
-inline GaussianMethod& gaussian_of(FluidScene const& scene)
-{
-    return static_cast<GaussianMethod&>(scene.mapper.method());
-}
 
 struct SteadyForceOf
 {
@@ -48,17 +44,16 @@ void DeviceMesh<Device>::upload(Device& device, FluidScene const& scene)
     neighbour_.upload(device, {from.neighbour, static_cast<std::size_t>(internal_faces_)});
     offsets_.upload(device, {from.cell_offsets, cells + 1});
     cell_faces_.upload(device, {from.cell_faces, static_cast<std::size_t>(from.cell_offsets[cells])});
+    coupling::Mesh const& topology = scene.mesh.topology();
+    points_.upload(device, {topology.points.data(), topology.points.size()});
+    face_offsets_.upload(device, {topology.face_offsets.data(), topology.face_offsets.size()});
+    face_points_.upload(device, {topology.face_points.data(), topology.face_points.size()});
+    BoxGrid const& grid = scene.mapper.cell_grid();
+    boxes_.upload(device, grid.boxes());
+    bin_offsets_.upload(device, grid.offsets());
+    bin_members_.upload(device, grid.members());
+    bin_nearest_.upload(device, grid.nearest());
     wall_faces_.upload(device, scene.wall_faces);
-    cell_sizes_.upload(device, gaussian_of(scene).cell_sizes());
-
-    CellRows const& layers = scene.mapper.layers();
-    layer_offsets_.upload(device, layers.offsets);
-    layer_cells_.upload(device, layers.cells);
-    reverse_slot_.upload(device, scene.mapper.reverse_slot());
-    std::vector<std::int32_t> row_of(static_cast<std::size_t>(layers.cells.size()));
-    for (std::int32_t c = 0; c < scene.mesh.cell_count(); ++c)
-        std::fill(row_of.begin() + layers.offsets[c], row_of.begin() + layers.offsets[c + 1], c);
-    row_of_.upload(device, row_of);
     device.wait();
 }
 
@@ -90,19 +85,7 @@ void DeviceFluid<Device>::set_scene(FluidScene const& scene)
 template <class Device>
 void DeviceFluid<Device>::take_sizes(ParticleState const& particles)
 {
-    if (scene_ == nullptr) return;
-    GaussianTables& tables = gaussian_of(*scene_).tables();
-    has_tables_ = tables.provide(particles);
-    if (!has_tables_) return;
-    table_shape_ = tables.view();
-    auto const rows = static_cast<std::size_t>(table_shape_.row_count);
-    auto const pairs = rows * static_cast<std::size_t>(table_shape_.cell_count);
-    std::int64_t end = 0;
-    for (std::size_t k = 0; k < pairs; ++k)
-        end = std::max(end, table_shape_.pairs[k].table + GaussianTableView::length);
-    radii_.upload(device_, {table_shape_.radii, rows});
-    pairs_.upload(device_, {table_shape_.pairs, pairs});
-    coefficients_.upload(device_, {table_shape_.coefficients, static_cast<std::size_t>(end)});
+    if (scene_ != nullptr) mapping_.upload(device_, *scene_, mesh_.view(), mesh_.boxes(), particles);
 }
 
 template <class Device>
@@ -164,60 +147,43 @@ std::int64_t DeviceFluid<Device>::clipped()
 }
 
 template <class Device>
-void DeviceFluid<Device>::start_near(DeviceParticles<Device>& particles)
-{
-    exec::Buffer<Quad> position;
-    particles.position.download(device_, position);
-    device_.wait();
-    exec::Buffer<std::int32_t> start(position.size());
-    for (std::int64_t p = 0; p < position.size(); ++p)
-        start[p] = scene_->mapper.start_cells().near(position[p].xyz());
-    particles.cell_of.upload(device_, start);
-    device_.wait();
-}
-
-template <class Device>
 bool DeviceFluid<Device>::locate(DeviceParticles<Device>& particles)
 {
     std::int64_t const n = particles.count();
-    if (particles.cell_of.size() != n) start_near(particles);
+    if (particles.cell_of.size() != n)
+    {
+        particles.cell_of.resize(device_, n);
+        device_.for_each(n, FillKernel<std::int32_t>{particles.cell_of.data(), -1});
+    }
     status_.resize(device_, n);
-    device_.for_each(
-        n,
-        LocateKernel{
-            {mesh_.view()}, particles.position.data(), mesh_.wall_faces(), particles.cell_of.data(), status_.data()});
+    device_.for_each(n, LocateKernel{mesh_.finder(scene_->mapper.cell_grid()), particles.position.data(),
+                                     mesh_.wall_faces(), particles.cell_of.data(), status_.data()});
     sort_(device_, {particles.cell_of.data(), n}, mesh_.cell_count(), by_cell_);
     return highest_(n, EntryOf<std::int32_t, std::uint8_t>{status_.data()}, Highest{}) == 0;
 }
 
 template <class Device>
-template <class Integral>
-void DeviceFluid<Device>::sum_with(Integral const& integral, DeviceParticles<Device> const& particles)
+template <class Law>
+void DeviceFluid<Device>::sum_with(Law const& law, DeviceParticles<Device> const& particles)
 {
-    LayerView const layers = mesh_.layers();
+    LayerView const layers = mapping_.layers();
     per_total_.resize(device_, particles.count());
-    device_.for_each(particles.count(), WeightTotalKernel<Integral>{integral, layers, particles.position.data(),
-                                                                    particles.cell_of.data(), per_total_.data()});
-    shares_.resize(device_, mesh_.layer_entries());
+    device_.for_each(particles.count(), WeightTotalKernel<Law>{law, layers, particles.position.data(),
+                                                               particles.cell_of.data(), per_total_.data()});
+    shares_.resize(device_, mapping_.layer_entries());
     device_.for_each(
-        mesh_.layer_entries(),
-        ShareKernel<Integral>{integral, layers, particles.position.data(), particles.impulses.data(), per_total_.data(),
-                              by_cell_.offsets.data(), by_cell_.members.data(), shares_.data()});
+        mapping_.layer_entries(),
+        ShareKernel<Law>{law, layers, particles.position.data(), particles.impulses.data(), per_total_.data(),
+                         by_cell_.offsets.data(), by_cell_.members.data(), shares_.data()});
 }
 
 template <class Device>
 void DeviceFluid<Device>::sum_into_cells(DeviceParticles<Device> const& particles, CellSums& sums)
 {
-    if (has_tables_)
-        sum_with(TabulatedIntegral1{{radii_.data(), pairs_.data(), coefficients_.data(), table_shape_.row_count,
-                                     table_shape_.cell_count},
-                                    mesh_.cells()},
-                 particles);
-    else
-        sum_with(ClosedFormIntegral1{mesh_.cell_sizes(), mesh_.cells()}, particles);
+    mapping_.with_law([&](auto const& law) { sum_with(law, particles); });
     std::int32_t const n = mesh_.cell_count();
     sums_.resize(device_, n);
-    device_.for_each(n, ShareSumKernel{mesh_.layers(), shares_.data(), sums_.data()});
+    device_.for_each(n, ShareSumKernel{mapping_.layers(), shares_.data(), sums_.data()});
     device_.copy_out(sums_here_, sums_.data(), static_cast<std::size_t>(n) * sizeof(Share));
     device_.wait();
     sums.solid_volume.resize(n);
@@ -227,6 +193,7 @@ void DeviceFluid<Device>::sum_into_cells(DeviceParticles<Device> const& particle
         sums.solid_volume[c] = sums_here_[c].volume;
         sums.drag[c] = sums_here_[c].drag;
     }
+    scene_->mapper.method().spread(sums);
 }
 
 template <class Device>

@@ -64,6 +64,8 @@ public:
     {
     }
 
+    exec::Buffer<Quad> const& points() const { return points_; }  ///< in a ball of radius 1
+
     void compute_weights(WeightTask const& task) override
     {
         fill_rows(task, Law{{mesh_.view()}, points_.view().data, static_cast<int>(points_.size())});

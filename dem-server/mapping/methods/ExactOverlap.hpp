@@ -17,6 +17,8 @@ public:
     {
     }
 
+    overlap::CellFacets const& facets() const { return facets_; }
+
     void compute_weights(WeightTask const& task) override { fill_rows(task, Law{facets_.view()}); }
 
 private:

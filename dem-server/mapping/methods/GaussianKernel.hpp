@@ -19,7 +19,9 @@ public:
     {
     }
 
-    void compute_weights(WeightTask const& task) override { fill_rows(task, Law{mesh_.view().cell, 2 * bandwidth_}); }
+    double radii() const { return 2 * bandwidth_; }  ///< b in radii of the particle
+
+    void compute_weights(WeightTask const& task) override { fill_rows(task, Law{mesh_.view().cell, radii()}); }
 
 private:
     struct Law

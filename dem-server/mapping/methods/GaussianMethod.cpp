@@ -14,7 +14,7 @@ GaussianMethod::GaussianMethod(PolyMesh const& mesh, double fixed_coefficient)
     for (std::int32_t c = 0; c < mesh.cell_count(); ++c)
     {
         double const radius = std::cbrt(3 / (4 * std::numbers::pi) * mesh.volume(c));
-        cell_sizes_[c] = {radius, std::log(radius), std::pow(radius, -3 * 0.132)};
+        cell_sizes_[c] = {radius, std::log(radius), std::pow(radius, -3 * 0.132), 1 / radius};
     }
 }
 

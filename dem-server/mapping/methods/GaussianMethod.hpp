@@ -22,6 +22,7 @@ public:
     // What a device needs to do the same.
     GaussianTables& tables() { return tables_; }
     exec::Buffer<CellSize> const& cell_sizes() const { return cell_sizes_; }
+    double fixed_coefficient() const { return fixed_coefficient_; }
 
 private:
     PolyMesh const& mesh_;

@@ -11,6 +11,7 @@
 #include "mapping/methods/GaussianKernel.hpp"
 #include "mapping/methods/GaussianMethod.hpp"
 #include "mapping/methods/ParticleCentre.hpp"
+#include "mapping/methods/PowerDiagram.hpp"
 
 namespace gimdem
 {
@@ -27,6 +28,7 @@ std::unique_ptr<Method> make_method(MappingSettings const& settings, exec::Execu
     if (name == "kernel") return std::make_unique<GaussianKernel>(execution, mesh, settings.bandwidth);
     if (name == "diffusion") return std::make_unique<Diffusion>(execution, mesh, settings.bandwidth);
     if (name == "exact") return std::make_unique<ExactOverlap>(execution, mesh);
+    if (name == "power-diagram") return std::make_unique<PowerDiagram>(execution, mesh);
     throw UserError(
         fmt::format("mapping method \"{}\" does not exist (it is the name of a file of mapping/methods); "
                     "take one of {}",

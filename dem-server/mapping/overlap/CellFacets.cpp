@@ -55,12 +55,22 @@ void CellFacets::add_face(std::int32_t face)
     }
 }
 
+Vec3 CellFacets::point(std::int32_t p) const
+{
+    return {points_[3 * p], points_[3 * p + 1], points_[3 * p + 2]};
+}
+
 void CellFacets::add_facet(std::int32_t const* corners, int count, Vec3 const& area)
 {
     double const size = area.norm();
     if (!(size > 0)) return;
     for (int k = 0; k < count; ++k)
+    {
+        Vec3 const way = point(corners[k]) - point(corners[(k + count - 1) % count]);
+        double const length = way.norm();
         append(corners_, corners[k]);
+        append(edges_, Quad::of(way / length, length));
+    }
     append(corner_offsets_, static_cast<std::int32_t>(corners_.size()));
     append(normal_, Quad::of(area / size, size));
 }
@@ -87,9 +97,18 @@ bool CellFacets::is_flat_and_convex(std::int32_t face) const
 CellFacetsView CellFacets::view() const
 {
     MeshKernelView const mesh = mesh_.view();
-    return {points_.view().data, facet_offsets_.view().data, corner_offsets_.view().data, corners_.view().data,
-            normal_.view().data, boxes_.view().data,         mesh.cell_offsets,           mesh.cell_faces,
-            mesh.owner};
+    return {points_.view().data,
+            facet_offsets_.view().data,
+            corner_offsets_.view().data,
+            corners_.view().data,
+            edges_.view().data,
+            normal_.view().data,
+            boxes_.view().data,
+            mesh.cell_offsets,
+            mesh.cell_faces,
+            mesh.owner,
+            mesh.neighbour,
+            mesh.internal_face_count};
 }
 
 }  // namespace gimdem::overlap

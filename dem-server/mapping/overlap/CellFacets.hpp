@@ -21,11 +21,14 @@ struct CellFacetsView
     std::int32_t const* facet_offsets;   ///< facets of face f are facet_offsets[f] .. facet_offsets[f + 1)
     std::int32_t const* corner_offsets;  ///< corners of facet i are corners[corner_offsets[i] ...)
     std::int32_t const* corners;         ///< numbers of points, counterclockwise around the normal
+    Quad const* edges;                   ///< to each corner from the one before: unit vector; w: length [m]
     Quad const* normal;                  ///< of each facet: unit, out of the face's owner; w: area [m^2]
     CellBox const* boxes;                ///< of each cell
     std::int32_t const* cell_offsets;    ///< faces of cell c are cell_faces[cell_offsets[c] ...)
     std::int32_t const* cell_faces;
-    std::int32_t const* owner;  ///< of each face
+    std::int32_t const* owner;      ///< of each face
+    std::int32_t const* neighbour;  ///< of each internal face
+    std::int32_t internal_face_count;
 
     GIMDEM_HD Vec3 point(std::int32_t p) const
     {
@@ -45,15 +48,23 @@ public:
 
     CellFacetsView view() const;
 
+    // What a device needs beside the mesh and its boxes.
+    exec::Buffer<double> const& points() const { return points_; }
+    exec::Buffer<std::int32_t> const& facet_offsets() const { return facet_offsets_; }
+    exec::Buffer<std::int32_t> const& corner_offsets() const { return corner_offsets_; }
+    exec::Buffer<std::int32_t> const& corners() const { return corners_; }
+    exec::Buffer<Quad> const& normals() const { return normal_; }
+
 private:
     void add_face(std::int32_t face);
+    Vec3 point(std::int32_t p) const;
     void add_facet(std::int32_t const* corners, int count, Vec3 const& area);
     bool is_flat_and_convex(std::int32_t face) const;
 
     PolyMesh const& mesh_;
     exec::Buffer<double> points_;
     exec::Buffer<std::int32_t> facet_offsets_, corner_offsets_, corners_;
-    exec::Buffer<Quad> normal_;
+    exec::Buffer<Quad> edges_, normal_;
     exec::Buffer<CellBox> boxes_;
 };
 

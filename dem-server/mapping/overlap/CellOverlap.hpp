@@ -28,9 +28,8 @@ struct FacetAtBall
         height = normal.dot(a);
         for (int k = 0; k < count; ++k)
         {
-            Vec3 const b = facets.point(facets.corners[first + k]) - centre;
-            edges[k] = EdgeInPlane(a, b, normal);
-            a = b;
+            edges[k] = EdgeInPlane(a, facets.edges[first + k], normal);
+            a = facets.point(facets.corners[first + k]) - centre;
         }
     }
 };
@@ -77,15 +76,16 @@ struct BallOverlap
     GIMDEM_HD double beyond(std::int32_t cell) const
     {
         double sum = 0;
-        visit_facets(cell,
-                     [&](std::int32_t facet, double side)
-                     {
-                         double const h = height(facet);
-                         if (!(std::abs(h) < radius)) return;
-                         FacetAtBall const at(facets, facet, centre);
-                         double const volume = volume_beyond({radius, std::abs(h)}, at.edges, at.count);
-                         sum += (h < 0 ? -side : side) * volume;
-                     });
+        visit_facets(cell, [&](std::int32_t facet, double side) { sum += side * through_facet(facet); });
+        return sum;
+    }
+
+    /// What leaves a face's owner through it, less what enters, (G.23).
+    GIMDEM_HD double through(std::int32_t face) const
+    {
+        double sum = 0;
+        for (std::int32_t i = facets.facet_offsets[face]; i < facets.facet_offsets[face + 1]; ++i)
+            sum += through_facet(i);
         return sum;
     }
 
@@ -110,6 +110,15 @@ private:
         return facets.normal[facet].xyz().dot(facets.point(facets.corners[last]) - centre);
     }
 
+    GIMDEM_HD double through_facet(std::int32_t facet) const
+    {
+        double const h = height(facet);
+        if (!(std::abs(h) < radius)) return 0;
+        FacetAtBall const at(facets, facet, centre);
+        double const volume = volume_beyond({radius, std::abs(h)}, at.edges, at.count);
+        return h < 0 ? -volume : volume;
+    }
+
     /// visit(facet, side) with side 1 where the facet's normal leaves the cell, else -1.
     template <class Visit>
     GIMDEM_HD void visit_facets(std::int32_t cell, Visit visit) const
@@ -124,24 +133,47 @@ private:
     }
 };
 
-/// Overlaps with a row of cells, of which the first is the one that holds the centre.
-GIMDEM_HD inline void overlap_with_row(BallOverlap const& ball, std::int32_t const* cells, int count, double* volumes)
+/// The same for a row of all cells that a ball may touch, whose centre is deep inside of the first: what one cell loses
+/// through a face its neighbour gains, (G.23), so each face is taken once, for its owner.
+GIMDEM_HD inline void exchange_through_faces(BallOverlap const& ball, std::int32_t const* cells, int count,
+                                             double* volumes)
 {
-    double const depth = ball.depth(cells[0]);
-    bool const deep = depth > BallOverlap::margin * ball.radius;
-    volumes[0] = depth >= ball.radius ? sphere_volume(ball.radius) : ball(cells[0]);
-    for (int k = 1; k < count; ++k)
+    CellFacetsView const& facets = ball.facets;
+    volumes[0] = sphere_volume(ball.radius);
+    for (int k = 0; k < count; ++k)
     {
-        volumes[k] = 0;
-        if (depth >= ball.radius) continue;
-        if (!deep)
-            volumes[k] = ball(cells[k]);
-        else if (ball.may_touch(cells[k]))
+        std::int32_t const cell = cells[k];
+        if (!ball.may_touch(cell)) continue;
+        for (std::int32_t i = facets.cell_offsets[cell]; i < facets.cell_offsets[cell + 1]; ++i)
         {
-            double const volume = -ball.beyond(cells[k]);
-            volumes[k] = volume > 0 ? volume : 0;
+            std::int32_t const face = facets.cell_faces[i];
+            double const leaving = facets.owner[face] == cell ? ball.through(face) : 0;
+            if (leaving == 0) continue;
+            volumes[k] -= leaving;
+            if (face >= facets.internal_face_count) continue;
+            int other = 0;
+            while (other < count && cells[other] != facets.neighbour[face])
+                ++other;
+            if (other < count) volumes[other] += leaving;
         }
     }
+    for (int k = 0; k < count; ++k)
+        volumes[k] = volumes[k] > 0 ? volumes[k] : 0;
+}
+
+/// Overlaps with a row of all cells that a ball may touch, of which the first is the one that holds the centre.
+GIMDEM_HD inline void overlap_with_row(BallOverlap const& ball, std::int32_t const* cells, int count, double* volumes)
+{
+    for (int k = 0; k < count; ++k)
+        volumes[k] = 0;
+    double const depth = ball.depth(cells[0]);
+    if (depth >= ball.radius)
+        volumes[0] = sphere_volume(ball.radius);
+    else if (depth > BallOverlap::margin * ball.radius)
+        exchange_through_faces(ball, cells, count, volumes);
+    else
+        for (int k = 0; k < count; ++k)
+            volumes[k] = ball(cells[k]);
 }
 
 }  // namespace gimdem::overlap

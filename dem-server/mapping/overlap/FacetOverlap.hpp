@@ -30,15 +30,13 @@ struct EdgeInPlane
     double distance;    ///< p of its line from the foot, positive where the foot is on the facet's side [m]
     double start, end;  ///< t of its corners along it, from the point of its line nearest to the foot [m]
 
-    /// For an edge a -> b that runs counterclockwise around the unit normal.
-    GIMDEM_HD EdgeInPlane(Vec3 const& a, Vec3 const& b, Vec3 const& normal)
+    /// For an edge from a along a unit vector, w: its length, that runs counterclockwise around the unit normal.
+    GIMDEM_HD EdgeInPlane(Vec3 const& a, Quad const& edge, Vec3 const& normal)
     {
-        Vec3 const way = b - a;
-        double const length = way.norm();
-        Vec3 const along = way / length;
+        Vec3 const along = edge.xyz();
         distance = along.cross(normal).dot(a);
         start = along.dot(a);
-        end = start + length;
+        end = start + edge.w;
     }
     EdgeInPlane() = default;
 

@@ -18,7 +18,7 @@ class RealCaseTest(FrontDoorTest):
     def setUp(self) -> None:
         super().setUp()
         self.case = self.folder / "case"
-        shutil.copytree(WACHEM, self.case, ignore=shutil.ignore_patterns("runs", "settled"))
+        shutil.copytree(WACHEM, self.case, ignore=shutil.ignore_patterns("runs", "settled", "meshes"))
         self.case_file = self.case / "case.toml"
         self.edit(r"^(mass|count) = .*$", "count = 300")
         self.edit(r"^duration = .*$", "duration = 0.0")

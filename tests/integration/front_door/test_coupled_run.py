@@ -21,8 +21,8 @@ class ShortRuns(RealCaseTest):
         super().setUp()
         self.before = tree_of(self.case)
 
-    def check(self, schedule: str) -> None:
-        code, out, err = self.gimdem("run", self.case, "--until", "0.002", "--schedule", schedule)
+    def check(self, schedule: str, *options: str) -> None:
+        code, out, err = self.gimdem("run", self.case, "--until", "0.002", "--schedule", schedule, *options)
         self.assertEqual(code, 0, err)
         figures = self.figures(self.run_folder)
         self.assertEqual(figures["coupling_steps"], 20)
@@ -45,6 +45,10 @@ class ShortRuns(RealCaseTest):
 
     def test_twenty_steps_overlapped(self) -> None:
         self.check("overlapped")
+
+    def test_on_polyhedra(self) -> None:
+        self.check("serial", "--grid", "E")
+        self.assertIn("leastSquares", (self.run_folder / "system" / "fvSchemes").read_text())
 
     def test_over_tcp(self) -> None:
         self.edit(r'^endpoint = "ipc"', f'endpoint = "tcp://127.0.0.1:{20000 + os.getpid() % 20000}"')

@@ -28,15 +28,18 @@ std::string with_header(std::string const& name, std::string const& text)
 /// Two cubes of edge 1 side by side along x, as OpenFOAM writes them.
 std::map<std::string, std::string> two_cubes()
 {
-    return {{"points", "12 ((0 0 0)(1 0 0)(2 0 0)(0 1 0)(1 1 0)(2 1 0)\n"
-                       "(0 0 1)(1 0 1)(2 0 1e0)(0 1 1)(1 1 1) // the last:\n(2 1 1))"},
-            {"faces", "11\n(\n4(1 4 10 7)\n4(0 6 9 3)\n4(2 5 11 8)\n4(0 1 7 6)\n4(1 2 8 7)\n4(3 9 10 4)\n4(4 10 11 5)\n"
-                      "4(0 3 4 1)\n4(1 4 5 2)\n4(6 7 10 9)\n4(7 8 11 10)\n)\n"},
+    return {{"points",
+             "12 ((0 0 0)(1 0 0)(2 0 0)(0 1 0)(1 1 0)(2 1 0)\n"
+             "(0 0 1)(1 0 1)(2 0 1e0)(0 1 1)(1 1 1) // the last:\n(2 1 1))"},
+            {"faces",
+             "11\n(\n4(1 4 10 7)\n4(0 6 9 3)\n4(2 5 11 8)\n4(0 1 7 6)\n4(1 2 8 7)\n4(3 9 10 4)\n4(4 10 11 5)\n"
+             "4(0 3 4 1)\n4(1 4 5 2)\n4(6 7 10 9)\n4(7 8 11 10)\n)\n"},
             {"owner", "11\n(\n0 0 1 0 1 0 1 0 1 0 1\n)\n"},
             {"neighbour", "1{1}"},
-            {"boundary", "3\n(\n    inlet\n    {\n        type patch;\n        nFaces 1;\n        startFace 1;\n    }\n"
-                         "    outlet { type patch; nFaces 1; startFace 2; }\n"
-                         "    sides { type wall; inGroups 1(wall); nFaces 8; startFace 3; }\n)\n"}};
+            {"boundary",
+             "3\n(\n    inlet\n    {\n        type patch;\n        nFaces 1;\n        startFace 1;\n    }\n"
+             "    outlet { type patch; nFaces 1; startFace 2; }\n"
+             "    sides { type wall; inGroups 1(wall); nFaces 8; startFace 3; }\n)\n"}};
 }
 
 /// A folder of its own, gone with the test.
@@ -100,7 +103,8 @@ TEST_F(PolyMeshFiles, AreFoundInTheirOwnFolderToo)
 
 TEST_F(PolyMeshFiles, ThatAreWrongAreRefusedWithFileAndLine)
 {
-    EXPECT_THAT(refusal("points", "12 ((0 0 0)(1 zero 0)"), HasSubstr("points:9: \"zero\" where a number was expected"));
+    EXPECT_THAT(refusal("points", "12 ((0 0 0)(1 zero 0)"),
+                HasSubstr("points:9: \"zero\" where a number was expected"));
     EXPECT_THAT(refusal("points", "1 (\n(0 0 0)\n(1 0 0)\n)"), HasSubstr("points:11: \"(\" where \")\" was expected"));
     EXPECT_THAT(refusal("faces", "1 (3(0 1 99))"), HasSubstr("face 0 has a point 99 that is not there"));
     EXPECT_THAT(refusal("owner", "2(0 1)"), HasSubstr("2 owners for 11 faces"));

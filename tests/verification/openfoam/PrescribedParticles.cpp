@@ -135,7 +135,8 @@ Fluid run_with(FluidProcess& process, double end_time, Prescription const& presc
                                 end_time,
                                 {field::velocity, field::velocity_gradient, field::pressure_gradient,
                                  field::void_fraction_gradient, field::pressure}});
-        measure(server.receive_mesh(), fluid);
+        fluid.mesh = server.receive_mesh();
+        measure(fluid.mesh, fluid);
         Sample sample(fluid, prescribe, 0);
         server.accept_mesh(sample.fields());
         while (auto const state = server.receive_fluid())

@@ -27,6 +27,7 @@ using Prescription = std::function<Solid(Vector centre, double time)>;
 struct Fluid
 {
     double time = 0;                                       ///< [s]
+    coupling::Mesh mesh;                                   ///< as the server has it
     std::vector<Vector> centre;                            ///< [m]
     std::vector<double> volume;                            ///< [m^3]
     std::vector<double> void_fraction;                     ///< at the same time

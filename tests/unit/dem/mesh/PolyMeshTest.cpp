@@ -8,6 +8,7 @@
 
 #include "BoxMesh.hpp"
 #include "core/Error.hpp"
+#include "mesh/NearbyCells.hpp"
 #include "mesh/PointLocator.hpp"
 
 namespace
@@ -16,7 +17,6 @@ namespace
 using gimdem::CellLayers;
 using gimdem::CellWalker;
 using gimdem::PolyMesh;
-using gimdem::StartCells;
 using gimdem::Vec3;
 using gimdem::test::BoxMesh;
 
@@ -84,7 +84,7 @@ TEST(CellLayers, HexahedronHasSixAndEighteenNeighbours)
 TEST(CellWalker, FindsTheCellOfAnyPointFromAnyStart)
 {
     PolyMesh const mesh(sheared(BoxMesh::make({9, 5, 7}, {1, 1, 1})));
-    StartCells const start(mesh);
+    gimdem::BoxGrid const grid(gimdem::cell_boxes(mesh));
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(0, 1);
     CellWalker const walk{mesh.view()};
@@ -94,9 +94,9 @@ TEST(CellWalker, FindsTheCellOfAnyPointFromAnyStart)
         Vec3 const y(x.x() + 0.4 * x.z(), x.y() - 0.2 * x.x(), x.z() + 0.1 * x.y());
         auto const expected = static_cast<std::int32_t>(x.x() * 9) +
                               9 * (static_cast<std::int32_t>(x.y() * 5) + 5 * static_cast<std::int32_t>(x.z() * 7));
-        EXPECT_EQ(walk(start.near(y), y).cell, expected);
+        EXPECT_EQ(walk(grid.view().near(y), y).cell, expected);
         EXPECT_EQ(walk(i % mesh.cell_count(), y).cell, expected);
-        EXPECT_EQ(walk(start.near(y), y).face, -1);
+        EXPECT_EQ(walk(grid.view().near(y), y).face, -1);
     }
 }
 
