@@ -71,7 +71,9 @@ def counts_of(options: argparse.Namespace) -> list[int]:
 
 
 def measure_speed(mesh: Mesh, count: int, methods: list[str], rounds: int, report: MappingReport) -> None:
-    """All methods by turns, the least times of all rounds. Methods whose memory for fewer particles tells that it would not do are left out."""
+    """All methods by turns, the least times of all rounds.
+
+    Methods whose memory for fewer particles tells that it would not do are left out."""
     fit = [name for name in methods if report.bytes_per_particle(mesh, name, count) * count < MOST_BYTES]
     for name in methods:
         if name not in fit:
