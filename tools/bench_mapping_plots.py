@@ -147,7 +147,7 @@ def draw_meshes(errors: Rows, quantities: tuple[Quantity, ...], styles: Styles, 
              if not name.startswith("hexahedra-") or name == "hexahedra-1.76"]
     if not names:
         return None
-    figure, panels = plt.subplots(len(quantities), 1, figsize=(7, 1.9 * len(quantities) + 1), squeeze=False, sharex=True)
+    figure, panels = plt.subplots(len(quantities), 1, figsize=(max(5.0, 0.85 * len(names)), 1.9 * len(quantities) + 1), squeeze=False, sharex=True)
     for axes, quantity in zip(panels[:, 0], quantities):
         for place, method in enumerate(styles.methods):
             shift = 0.6 * (place / max(1, len(styles.methods) - 1) - 0.5)
@@ -170,4 +170,7 @@ def draw_meshes(errors: Rows, quantities: tuple[Quantity, ...], styles: Styles, 
 
 def label_of(name: str) -> str:
     """In two lines, the size of cubes left out: all these meshes have it about."""
-    return known()[name].label.replace(", ", "\n").replace("boxes ", "boxes\n") if name in known() else name
+    if name not in known():
+        return name
+    first, _, second = known()[name].label.partition(", ")
+    return f"{first}\n{second}" if second else first.replace(" ", "\n", 1)
