@@ -53,11 +53,12 @@ def draw_signals(rows: list[Row], file: Path) -> Path:
             series = BedSeries(row.folder / "bed.csv")
             last = series["time"] >= series["time"][-1] - 0.02
             pressure = series["pressure_45mm"][last]
-            panel.plot(1e3 * series["time"][last], pressure - pressure.mean() - 150 * k, lw=0.8, label=row.method)
+            (line,) = panel.plot(1e3 * series["time"][last], pressure - pressure.mean() - 150 * k, lw=0.8)
+            panel.annotate(row.method, (1.01, -150 * k), xycoords=("axes fraction", "data"), color=line.get_color(),
+                           va="center")
         panel.set_title(f"grid {grid}", fontsize=10)
         panel.set_xlabel("time [ms]")
         panel.set_ylabel("pressure at 45 mm [Pa], each 150 lower")
-        panel.legend(loc="upper right")
     figure.savefig(file)
     plt.close(figure)
     return file

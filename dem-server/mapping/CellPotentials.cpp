@@ -59,8 +59,10 @@ struct FaceNorm
         Eigen::Matrix3d const bend = along * e.hessian * along;
         double const mean = e.value + radius2 / 8 * bend.trace();
         double const across = e.gradient.dot(normal);
+        Eigen::Matrix3d const tilt = along * e.hessian * normal * normal.transpose();
         return {area * mean, area * ((thickness2 - radius2 / 4) * across * normal + radius2 / 4 * e.gradient),
-                area * (radius2 * (mean / 8 - radius2 / 192 * bend.trace()) * along + radius2 * radius2 / 48 * bend)};
+                area * (radius2 * (mean / 8 - radius2 / 192 * bend.trace()) * along + radius2 * radius2 / 48 * bend +
+                        thickness2 * radius2 / 8 * (tilt + tilt.transpose()))};
     }
     /// The slope across alone, for a face of the boundary.
     Quadratic slope(Quadratic const& e) const
@@ -209,7 +211,7 @@ exec::Buffer<CellPotential> fit_potentials(PolyMesh const& mesh)
         potentials[c] = {{x.x(), x.y(), x.z()},
                          q.value,
                          {g.x(), g.y(), g.z()},
-                         h.squaredNorm() / 3,
+                         h.squaredNorm() / 10,
                          {h(0, 0) / 2, h(1, 1) / 2, h(2, 2) / 2, h(1, 2), h(0, 2), h(0, 1)},
                          {0, 0}};
     }

@@ -17,7 +17,7 @@ struct alignas(64) CellPotential
     double centre[3];        ///< centroid of the cell [m]
     double value;            ///< at the centre [m]
     double gradient[3];      ///< at the centre [1]
-    double narrowness;       ///< mean square of the eigenvalues of H: 1/a^2 for a cube of edge a [1/m^2]
+    double narrowness;       ///< |H|^2 / 10: 0.3 / a^2 for a cube of edge a [1/m^2]
     double half_hessian[6];  ///< H / 2: xx, yy, zz and twice yz, xz, xy [1/m]
     double unused[2];
 

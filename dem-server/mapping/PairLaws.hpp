@@ -9,6 +9,7 @@
 
 #include "mapping/GaussianIntegral.hpp"
 #include "mapping/GaussianTable.hpp"
+#include "mapping/PotentialShare.hpp"
 #include "mapping/WeightKernel.hpp"
 #include "mapping/overlap/CellOverlap.hpp"
 #include "mesh/PointLocator.hpp"
@@ -107,6 +108,18 @@ struct GaussianAtCentre1
     {
         double const x = (cell[c].xyz() - particle.xyz()).norm() / (radii * particle.w);
         return x < 3 ? cell[c].w * std::exp(-x * x) : 0;
+    }
+};
+
+/// `power-diagram` (G.34)-(G.39).
+struct PowerDiagram1
+{
+    PotentialShare of;
+
+    GIMDEM_HD double level(Quad const& particle, std::int32_t c) const { return of.level(particle, c); }
+    GIMDEM_HD double operator()(Quad const& particle, std::int32_t, std::int32_t c, double least) const
+    {
+        return of.share(particle, c, of.level(particle, c), least);
     }
 };
 

@@ -20,7 +20,20 @@ struct LayerView
     std::int32_t const* reverse_slot;  ///< place of the row's cell in the row of cells[e]
 };
 
-/// 1 / (sum of a particle's shares); 0 where all underflow and the own cell takes all.
+/// A law whose shares depend on the least of the levels of a particle's candidates: law.level(particle, cell).
+template <class Law>
+concept Compares = requires(Law const& law, Quad const& x)
+{
+    law.level(x, 0);
+};
+
+/// What the shares of one particle have in common.
+struct ParticleTotal
+{
+    double per_total;  ///< 1 / (sum of its shares); 0 where all underflow and the own cell takes all
+    double least;      ///< level of its candidates, for a law that compares
+};
+
 template <class Law>
 struct WeightTotalKernel
 {
@@ -28,16 +41,31 @@ struct WeightTotalKernel
     LayerView layers;
     Quad const* position;
     std::int32_t const* cell_of;
-    double* per_total;
+    ParticleTotal* totals;
 
     GIMDEM_HD void operator()(std::int64_t p) const
     {
         Quad const x = position[p];
         std::int32_t const c = cell_of[p];
-        double total = 0;
+        double total = 0, least = 1e300;
+        if constexpr (Compares<Law>)
+            for (std::int32_t e = layers.offsets[c]; e < layers.offsets[c + 1]; ++e)
+            {
+                double const level = law.level(x, layers.cells[e]);
+                least = level < least ? level : least;
+            }
         for (std::int32_t e = layers.offsets[c]; e < layers.offsets[c + 1]; ++e)
-            total += law(x, c, layers.cells[e]);
-        per_total[p] = total > 0 ? 1 / total : 0;
+            total += share_of(law, x, c, layers.cells[e], least);
+        totals[p] = {total > 0 ? 1 / total : 0, least};
+    }
+
+    /// Before it is normalised.
+    GIMDEM_HD static double share_of(Law const& law, Quad const& x, std::int32_t own, std::int32_t cell, double least)
+    {
+        if constexpr (Compares<Law>)
+            return law(x, own, cell, least);
+        else
+            return law(x, own, cell);
     }
 };
 
@@ -49,7 +77,7 @@ struct ShareKernel
     LayerView layers;
     Quad const* position;
     Impulse const* impulses;  ///< null: volumes only
-    double const* per_total;
+    ParticleTotal const* totals;
     std::int32_t const* particle_offsets;  ///< particles of cell c are members[particle_offsets[c] ...)
     std::int32_t const* members;
     Share* shares;
@@ -63,8 +91,10 @@ struct ShareKernel
         {
             std::int32_t const p = members[m];
             Quad const x = position[p];
-            double const scale = per_total[p];
-            double const weight = scale > 0 ? law(x, c, layers.cells[e]) * scale : (own ? 1.0 : 0.0);
+            ParticleTotal const of = totals[p];
+            double const weight =
+                of.per_total > 0 ? WeightTotalKernel<Law>::share_of(law, x, c, layers.cells[e], of.least) * of.per_total
+                                 : (own ? 1.0 : 0.0);
             Quad const drag = impulses == nullptr ? Quad{0, 0, 0, 0} : impulses[p].drag;
             sum.add(weight, {drag, sphere_volume(x.w)});
         }

@@ -17,20 +17,43 @@ namespace gimdem
 namespace
 {
 
-/// Calls visit(face, plane, point a, point b) for every edge of every face that is a wall.
-template <class Visit>
-void visit_edges(PolyMesh const& mesh, std::vector<std::int32_t> const& plane_of_face, Visit&& visit)
+/// Whether a point of a face is farther from its plane than the tolerance [m].
+bool is_warped(PolyMesh const& mesh, std::int32_t face, double tolerance)
 {
-    for (std::int32_t f = mesh.internal_face_count(); f < mesh.face_count(); ++f)
-    {
-        std::int32_t const plane = plane_of_face[static_cast<std::size_t>(f)];
-        auto const points = mesh.points_of_face(f);
-        for (std::size_t k = 0; plane >= 0 && k < points.size(); ++k)
-            visit(f, plane, points[k], points[(k + 1) % points.size()]);
-    }
+    auto const points = mesh.points_of_face(face);
+    return std::any_of(points.begin(), points.end(),
+                       [&](std::int32_t p)
+                       {
+                           Vec3 const from = mesh.point(p) - mesh.face_centre(face);
+                           return std::abs(from.dot(mesh.face_normal(face))) > tolerance;
+                       });
+}
+
+/// Unit normal of the triangle that edge k of a face makes with its centre, into the mesh; of the face, if there is no
+/// such triangle.
+Vec3 normal_at_edge(PolyMesh const& mesh, std::int32_t face, std::size_t k)
+{
+    auto const points = mesh.points_of_face(face);
+    Vec3 const centre = mesh.face_centre(face);
+    Vec3 const a = mesh.point(points[k]) - centre, b = mesh.point(points[(k + 1) % points.size()]) - centre;
+    Vec3 const area = b.cross(a);
+    return area.norm() > 1e-12 * (a - b).squaredNorm() ? area.normalized() : Vec3(-mesh.face_normal(face));
 }
 
 }  // namespace
+
+/// Calls visit(face, plane, point a, point b) for every edge of every face that is a wall.
+template <class Visit>
+void WallGeometry::visit_edges(PolyMesh const& mesh, Visit&& visit) const
+{
+    for (std::int32_t f = mesh.internal_face_count(); f < mesh.face_count(); ++f)
+    {
+        auto const [plane, warped] = planes_of_face_[static_cast<std::size_t>(f)];
+        auto const points = mesh.points_of_face(f);
+        for (std::size_t k = 0; plane >= 0 && k < points.size(); ++k)
+            visit(f, warped ? plane + static_cast<std::int32_t>(k) : plane, points[k], points[(k + 1) % points.size()]);
+    }
+}
 
 void WallGeometry::add_mesh(PolyMesh const& mesh, std::vector<std::string> const& also)
 {
@@ -50,18 +73,27 @@ void WallGeometry::join_planes(PolyMesh const& mesh, std::vector<std::string> co
                 fmt::format("[walls] also names \"{}\", but the mesh has no such patch; use one of the "
                             "mesh's patch names",
                             name));
-    plane_of_face_.assign(static_cast<std::size_t>(mesh.face_count()), -1);
+    planes_of_face_.assign(static_cast<std::size_t>(mesh.face_count()), {});
     double const tolerance = 1e-7 * (mesh.high() - mesh.low()).norm();
     for (coupling::Patch const& patch : mesh.topology().patches)
     {
         bool const named = std::find(also.begin(), also.end(), patch.name) != also.end();
         if (patch.kind != coupling::PatchKind::wall && !named) continue;
         for (std::int32_t f = patch.start_face; f < patch.start_face + patch.face_count; ++f)
-        {
-            Vec3 const normal = -mesh.face_normal(f);
-            plane_of_face_[static_cast<std::size_t>(f)] = plane_of(normal, normal.dot(mesh.face_centre(f)), tolerance);
-        }
+            planes_of_face_[static_cast<std::size_t>(f)] = add_planes(mesh, f, tolerance);
     }
+}
+
+WallGeometry::FacePlanes WallGeometry::add_planes(PolyMesh const& mesh, std::int32_t face, double tolerance)
+{
+    Vec3 const centre = mesh.face_centre(face), normal = -mesh.face_normal(face);
+    if (!is_warped(mesh, face, tolerance)) return {plane_of(normal, normal.dot(centre), tolerance), false};
+    for (std::size_t k = 0; k < mesh.points_of_face(face).size(); ++k)
+    {
+        Vec3 const own = normal_at_edge(mesh, face, k);
+        add_surface(SurfaceKind::facets, own, own.dot(centre));
+    }
+    return {plane_count() - static_cast<std::int32_t>(mesh.points_of_face(face).size()), true};
 }
 
 // Planes closer than the tolerance (1e-7 of the mesh's size; 1e-10 in 1 - cosine: 3e-6 of a degree of freedom in the
@@ -87,7 +119,7 @@ void WallGeometry::cut_into_triangles(PolyMesh const& mesh)
     auto const edge_key = [](std::int32_t plane, std::int32_t a, std::int32_t b)
     { return std::tuple(plane, std::min(a, b), std::max(a, b)); };
     std::int64_t count = 0;
-    visit_edges(mesh, plane_of_face_,
+    visit_edges(mesh,
                 [&](std::int32_t, std::int32_t plane, std::int32_t a, std::int32_t b)
                 {
                     ++uses[edge_key(plane, a, b)];
@@ -95,12 +127,14 @@ void WallGeometry::cut_into_triangles(PolyMesh const& mesh)
                 });
     triangles_.resize(count);
     std::int64_t t = 0;
-    visit_edges(mesh, plane_of_face_,
+    visit_edges(mesh,
                 [&](std::int32_t f, std::int32_t plane, std::int32_t a, std::int32_t b)
                 {
+                    // A triangle of a warped face is a plane of its own.
                     bool const is_rim = uses[edge_key(plane, a, b)] == 1;
+                    int const rim = planes_of_face_[static_cast<std::size_t>(f)].warped ? 0b111 : int(is_rim);
                     triangles_[t++] = {Quad::of(mesh.point(a), 0), Quad::of(mesh.point(b), 0),
-                                       Quad::of(mesh.face_centre(f), 0), plane, static_cast<std::uint8_t>(is_rim)};
+                                       Quad::of(mesh.face_centre(f), 0), plane, static_cast<std::uint8_t>(rim)};
                 });
 }
 
@@ -108,13 +142,15 @@ void WallGeometry::join_patches(PolyMesh const& mesh)
 {
     PatchJoiner patches(plane_count());
     std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> plane_at;
-    visit_edges(mesh, plane_of_face_,
-                [&](std::int32_t, std::int32_t plane, std::int32_t a, std::int32_t b)
+    auto const join = [&](std::int32_t one, std::int32_t other)
+    { patches.join(one, other, surfaces_[one].normal.xyz(), surfaces_[other].normal.xyz(), false); };
+    visit_edges(mesh,
+                [&](std::int32_t f, std::int32_t plane, std::int32_t a, std::int32_t b)
                 {
                     auto const [first, is_new] = plane_at.emplace(std::minmax(a, b), plane);
-                    if (!is_new)
-                        patches.join(first->second, plane, surfaces_[first->second].normal.xyz(),
-                                     surfaces_[plane].normal.xyz(), false);
+                    if (!is_new) join(first->second, plane);
+                    std::int32_t const of_face = planes_of_face_[static_cast<std::size_t>(f)].first;
+                    if (plane > of_face) join(plane - 1, plane);  // side by side in a warped face
                 });
     for (std::int32_t p = 0; p < plane_count(); ++p)
         surfaces_[p].patch = patches.patch_of(p);

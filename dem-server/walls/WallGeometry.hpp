@@ -34,7 +34,7 @@ public:
 
     std::int32_t plane_count() const { return static_cast<std::int32_t>(surfaces_.size()); }
     std::int64_t triangle_count() const { return triangles_.size(); }
-    bool is_wall_face(std::int32_t face) const { return plane_of_face_[static_cast<std::size_t>(face)] >= 0; }
+    bool is_wall_face(std::int32_t face) const { return planes_of_face_[static_cast<std::size_t>(face)].first >= 0; }
     WallView view() const;
 
     std::int32_t body_count() const { return static_cast<std::int32_t>(bodies_.size()); }
@@ -53,11 +53,21 @@ public:
     std::string description() const;
 
 private:
+    /// The plane of a flat face; of a warped one, the planes of the triangles that its edges make with its centre.
+    struct FacePlanes
+    {
+        std::int32_t first = -1;  ///< -1: the face is no wall
+        bool warped = false;      ///< one plane for each edge, from the first one on
+    };
+
     void add_mesh(PolyMesh const& mesh, std::vector<std::string> const& also);
     void join_planes(PolyMesh const& mesh, std::vector<std::string> const& also);
     void cut_into_triangles(PolyMesh const& mesh);
     void join_patches(PolyMesh const& mesh);
+    FacePlanes add_planes(PolyMesh const& mesh, std::int32_t face, double tolerance);
     std::int32_t plane_of(Vec3 const& normal, double offset, double tolerance);
+    template <class Visit>
+    void visit_edges(PolyMesh const& mesh, Visit&& visit) const;
 
     void add_item(WallItemSettings const& item);
     void add_surfaces(SurfaceMesh const& surface, WallItemSettings const& item);
@@ -76,7 +86,7 @@ private:
     std::vector<std::string> names_, materials_;
     std::vector<bool> closed_;
     std::vector<WallMotion> motions_;
-    std::vector<std::int32_t> plane_of_face_;  ///< -1 for faces that are no wall
+    std::vector<FacePlanes> planes_of_face_;
 };
 
 }  // namespace gimdem

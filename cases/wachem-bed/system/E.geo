@@ -1,4 +1,4 @@
-// Grid E: 7,325 polyhedra, 2.37 particle diameters
+// Grid E: 7,219 polyhedra, 2.38 particle diameters
 
 layers = 2;
 h = 3.84e-3; // [m]

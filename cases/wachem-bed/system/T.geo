@@ -1,8 +1,8 @@
-// Grid T: 17,991 tetrahedra, 1.76 particle diameters
+// Grid T: 18,095 tetrahedra, 1.75 particle diameters
 
 layers = 2;
-h = 6.15e-3; // [m]
-g = 0;
+h = 5.62e-3; // [m]
+g = 0.1;
 d = 1e-3; // [m]
 
 Include "box.geo";

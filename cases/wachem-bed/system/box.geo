@@ -26,6 +26,28 @@ Mesh.MeshSizeExtendFromBoundary = 0;
 Mesh.Algorithm3D = 1; // Delaunay
 
 e = 1e-6;
+If (layers > 1)
+    // The narrow sides in pairs of triangles from plane to plane
+    s = (1 + 2*g)*h;
+    For side In {0 : 1}
+        x = side*width;
+        z = side*height;
+        For plane In {0 : layers}
+            y = plane*thickness/layers;
+            up() = Curve In BoundingBox {x - e, y - e, -e, x + e, y + e, height + e};
+            along() = Curve In BoundingBox {-e, y - e, z - e, width + e, y + e, z + e};
+            Transfinite Curve {up()} = Round(height/s) + 1;
+            Transfinite Curve {along()} = Round(width/s) + 1;
+        EndFor
+        left() = Curve In BoundingBox {-e, -e, z - e, e, thickness + e, z + e};
+        right() = Curve In BoundingBox {width - e, -e, z - e, width + e, thickness + e, z + e};
+        Transfinite Curve {left(), right()} = 2;
+        side_wall() = Surface In BoundingBox {x - e, -e, -e, x + e, thickness + e, height + e};
+        end() = Surface In BoundingBox {-e, -e, z - e, width + e, thickness + e, z + e};
+        Transfinite Surface {side_wall(), end()} Alternate;
+    EndFor
+EndIf
+
 inlet() = Surface In BoundingBox {-e, -e, -e, width + e, thickness + e, e};
 outlet() = Surface In BoundingBox {-e, -e, height - e, width + e, thickness + e, height + e};
 walls() = Abs(CombinedBoundary { Volume{:}; });

@@ -94,7 +94,8 @@ private:
     DeviceMesh<Device> mesh_;
     DeviceMapping<Device> mapping_;
     Array<Quad> velocity_, pressure_gradient_, void_gradient_;
-    Array<double> velocity_gradient_, void_fraction_, per_total_;
+    Array<double> velocity_gradient_, void_fraction_;
+    Array<ParticleTotal> totals_;
     Array<FluidLoad> loads_;
     Array<std::int32_t> clips_;
     Array<std::uint8_t> status_;

@@ -167,14 +167,13 @@ template <class Law>
 void DeviceFluid<Device>::sum_with(Law const& law, DeviceParticles<Device> const& particles)
 {
     LayerView const layers = mapping_.layers();
-    per_total_.resize(device_, particles.count());
+    totals_.resize(device_, particles.count());
     device_.for_each(particles.count(), WeightTotalKernel<Law>{law, layers, particles.position.data(),
-                                                               particles.cell_of.data(), per_total_.data()});
+                                                               particles.cell_of.data(), totals_.data()});
     shares_.resize(device_, mapping_.layer_entries());
-    device_.for_each(
-        mapping_.layer_entries(),
-        ShareKernel<Law>{law, layers, particles.position.data(), particles.impulses.data(), per_total_.data(),
-                         by_cell_.offsets.data(), by_cell_.members.data(), shares_.data()});
+    device_.for_each(mapping_.layer_entries(),
+                     ShareKernel<Law>{law, layers, particles.position.data(), particles.impulses.data(), totals_.data(),
+                                      by_cell_.offsets.data(), by_cell_.members.data(), shares_.data()});
 }
 
 template <class Device>

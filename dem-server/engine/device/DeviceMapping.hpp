@@ -46,7 +46,8 @@ private:
         points,
         faces,
         kernel,
-        overlap
+        overlap,
+        potentials
     };
 
     void upload_rows(Device& device, Mapper const& mapper);
@@ -64,14 +65,15 @@ private:
     Array<TabulatedPair> pairs_;
     Array<CellSize> cell_sizes_;
     double fixed_coefficient_ = 0;
-    // divided, kernel
+    // divided, kernel, power-diagram
     Array<Quad> points_;
     double radii_of_kernel_ = 0;
+    Array<CellPotential> potentials_;
     // exact
     overlap::CellFacetsView facets_{};
     Array<double> corners_at_;
     Array<std::int32_t> facet_offsets_, corner_offsets_, corners_;
-    Array<Quad> facet_normals_;
+    Array<Quad> facet_edges_, facet_normals_;
 };
 
 }  // namespace gimdem

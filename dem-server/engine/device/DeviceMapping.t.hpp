@@ -13,6 +13,7 @@
 #include "mapping/methods/GaussianKernel.hpp"
 #include "mapping/methods/GaussianMethod.hpp"
 #include "mapping/methods/ParticleCentre.hpp"
+#include "mapping/methods/PowerDiagram.hpp"
 
 namespace gimdem
 {
@@ -37,6 +38,8 @@ void DeviceMapping<Device>::upload(Device& device, FluidScene const& scene, Mesh
         kind_ = Kind::kernel, radii_of_kernel_ = kernel->radii();
     else if (auto const* const exact = dynamic_cast<ExactOverlap*>(&method))
         kind_ = Kind::overlap, upload_facets(device, *exact);
+    else if (auto const* const diagram = dynamic_cast<PowerDiagram*>(&method))
+        kind_ = Kind::potentials, potentials_.upload(device, diagram->potentials());
     else
         throw UserError("mapping method \"" + scene.settings.mapping.method +
                         "\" does not run on a GPU (it has no law in mapping/PairLaws.hpp); set another [mapping] "
@@ -87,9 +90,19 @@ void DeviceMapping<Device>::upload_facets(Device& device, ExactOverlap const& me
     corner_offsets_.upload(device, from.corner_offsets());
     corners_.upload(device, from.corners());
     facet_normals_.upload(device, from.normals());
-    facets_ = {corners_at_.data(), facet_offsets_.data(), corner_offsets_.data(),
-               corners_.data(),    facet_normals_.data(), boxes_,
-               mesh_.cell_offsets, mesh_.cell_faces,      mesh_.owner};
+    facet_edges_.upload(device, from.edges());
+    facets_ = {corners_at_.data(),
+               facet_offsets_.data(),
+               corner_offsets_.data(),
+               corners_.data(),
+               facet_edges_.data(),
+               facet_normals_.data(),
+               boxes_,
+               mesh_.cell_offsets,
+               mesh_.cell_faces,
+               mesh_.owner,
+               mesh_.neighbour,
+               mesh_.internal_face_count};
 }
 
 template <class Device>
@@ -114,6 +127,8 @@ void DeviceMapping<Device>::with_law(Work work) const
             return work(GaussianAtCentre1{mesh_.cell, radii_of_kernel_});
         case Kind::overlap:
             return work(Overlap1{facets_});
+        case Kind::potentials:
+            return work(PowerDiagram1{{potentials_.data()}});
     }
 }
 

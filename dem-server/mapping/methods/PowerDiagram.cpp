@@ -3,9 +3,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "exec/Reduce.hpp"
+#include "mapping/PotentialShare.hpp"
 
 namespace gimdem
 {
@@ -13,39 +15,20 @@ namespace gimdem
 namespace
 {
 
-/// 1 / (length over which the potential of a cell counts for a ball of the radius r) [1/m], (G.38): 1/r for a ball
-/// that is small against the cell.
-GIMDEM_HD double per_reach(CellPotential const& cell, double r)
-{
-    return 1 / (r + 0.15 * cell.narrowness * r * r * r);
-}
-
-/// Share of a cell whose potential is higher by u, of one whose potential is least: the ratio of the two parts that a
-/// plane at u radii from its centre cuts a ball into, (G.35).
-GIMDEM_HD double odds(double u)
-{
-    double const in = 1 - u, out = 1 + u;
-    return in * in * (2 + u) / (out * out * (2 - u));
-}
-
 struct Law
 {
-    CellPotential const* potentials;
+    PotentialShare of;
 
     GIMDEM_HD void operator()(Quad const& particle, std::int32_t const* cells, int count, double* w) const
     {
         double least = 1e300;
         for (int k = 0; k < count; ++k)
         {
-            CellPotential const& cell = potentials[cells[k]];
-            w[k] = cell(particle) * per_reach(cell, particle.w);
+            w[k] = of.level(particle, cells[k]);
             least = w[k] < least ? w[k] : least;
         }
         for (int k = 0; k < count; ++k)
-        {
-            double const u = w[k] - least;
-            w[k] = u < 1 ? odds(u) : 0;
-        }
+            w[k] = of.share(particle, cells[k], w[k], least);
     }
 };
 
@@ -154,7 +137,7 @@ void PowerDiagram::find_candidates()
 
 void PowerDiagram::compute_weights(WeightTask const& task)
 {
-    fill_rows(task, Law{potentials_.view().data});
+    fill_rows(task, Law{{potentials_.view().data}});
 }
 
 }  // namespace gimdem

@@ -16,6 +16,7 @@ public:
     PowerDiagram(exec::Execution const& execution, PolyMesh const& mesh);
 
     CellRows const& candidates() const override { return candidates_; }
+    exec::Buffer<CellPotential> const& potentials() const { return potentials_; }
     bool prepare(ParticleState const& particles) override;
     void compute_weights(WeightTask const& task) override;
 

@@ -53,6 +53,7 @@ public:
     exec::Buffer<std::int32_t> const& facet_offsets() const { return facet_offsets_; }
     exec::Buffer<std::int32_t> const& corner_offsets() const { return corner_offsets_; }
     exec::Buffer<std::int32_t> const& corners() const { return corners_; }
+    exec::Buffer<Quad> const& edges() const { return edges_; }
     exec::Buffer<Quad> const& normals() const { return normal_; }
 
 private:
