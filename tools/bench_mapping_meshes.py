@@ -33,7 +33,7 @@ def known() -> dict[str, Mesh]:
     """All that are named here, in the order of tables."""
     found = [Mesh(f"hexahedra-{ratio}", "hexahedra", f"cubes, a/dp = {ratio}", ratio, "hexahedra") for ratio in RATIOS]
     found += [Mesh(f"stretched-{n}", "stretched", f"boxes 1:1:{n}", made_of=f"stretched-{n}") for n in (2, 4)]
-    found += [Mesh("tetrahedra", "tetrahedra", "tetrahedra, six to a cube", made_of="tetrahedra"),
+    found += [Mesh("tetrahedra", "tetrahedra", "tetrahedra, of cubes", made_of="tetrahedra"),
               Mesh("polyhedra", "polyhedra", "Voronoi cells", made_of="polyhedra")]
     found += [Mesh(name, family, f"Grid {name}, {family}") for name, family in GRIDS.items()]
     return {mesh.name: mesh for mesh in found}

@@ -32,10 +32,10 @@ class Quantity:
     scale: str = "log"
 
 
-WRONG = Quantity("wrong_cells", "share of volume in wrong cells [1]")
-RMS = Quantity("rms_error", "RMS error of the solid fraction [1]")
-JUMP = Quantity("jump_largest", "largest jump of a solid fraction\nfor a step of dp/100 [1]")
-LARGEST = Quantity("largest_solid_fraction", "largest solid fraction of any cell [1]", "linear")
+WRONG = Quantity("wrong_cells", "share of volume\nin wrong cells [1]")
+RMS = Quantity("rms_error", "RMS error of\nthe solid fraction [1]")
+JUMP = Quantity("jump_largest", "largest jump of a solid\nfraction in dp/100 [1]")
+LARGEST = Quantity("largest_solid_fraction", "largest solid fraction\nof any cell [1]", "linear")
 WALL = Quantity("wall_ratio", "solid in cells at walls,\nover that of exact [1]", "linear")
 
 
@@ -87,10 +87,11 @@ def draw_pareto(errors: Rows, speed: Rows, quantity: Quantity, styles: Styles, p
         axes.set(xscale="log", yscale="log", title=known()[name].label if name in known() else name, ylim=(floor, None))
         axes.annotate("0", (0, 0), (-4, 0), xycoords="axes fraction", textcoords="offset points", ha="right",
                       va="center", fontsize=7) if front else None
-    for axes in panels.flat[len(names):]:
-        axes.set_visible(False)
+    for place, axes in enumerate(panels.flat):
+        axes.set_visible(place < len(names))
+        axes.tick_params(labelbottom=place + columns >= len(names))
     figure.supxlabel("time of a mapping [ns per particle], 17,563 particles, one thread", fontsize=9)
-    figure.supylabel(quantity.label, fontsize=9)
+    figure.supylabel(quantity.label.replace("\n", " "), fontsize=9)
     styles.legend(figure)
     return saved(figure, path)
 
@@ -146,7 +147,7 @@ def draw_meshes(errors: Rows, quantities: tuple[Quantity, ...], styles: Styles, 
              if not name.startswith("hexahedra-") or name == "hexahedra-1.76"]
     if not names:
         return None
-    figure, panels = plt.subplots(len(quantities), 1, figsize=(7, 1.9 * len(quantities) + 1), squeeze=False, sharex=True)
+    figure, panels = plt.subplots(len(quantities), 1, figsize=(max(5.0, 0.85 * len(names)), 1.9 * len(quantities) + 1), squeeze=False, sharex=True)
     for axes, quantity in zip(panels[:, 0], quantities):
         for place, method in enumerate(styles.methods):
             shift = 0.6 * (place / max(1, len(styles.methods) - 1) - 0.5)
@@ -169,4 +170,7 @@ def draw_meshes(errors: Rows, quantities: tuple[Quantity, ...], styles: Styles, 
 
 def label_of(name: str) -> str:
     """In two lines, the size of cubes left out: all these meshes have it about."""
-    return known()[name].label.replace(", ", "\n").replace("boxes ", "boxes\n") if name in known() else name
+    if name not in known():
+        return name
+    first, _, second = known()[name].label.partition(", ")
+    return f"{first}\n{second}" if second else first.replace(" ", "\n", 1)

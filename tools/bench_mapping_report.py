@@ -12,7 +12,8 @@ from bench_mapping_meshes import Mesh, known
 Row = dict[str, str]
 ERRORS = ("wrong_cells", "rms_error", "jump_largest", "jump_mean", "largest_solid_fraction", "wall_ratio")
 ERROR_COLUMNS = ("mesh", "family", "method", "cells", "ratio", *ERRORS)
-SPEED = ("locate_ns", "weights_ns", "sums_ns", "step_ms", "weights_per_particle", "bytes_per_particle")
+STAGES = ("locate_ns", "weights_ns", "sums_ns")
+SPEED = (*STAGES, "step_ms", "weights_per_particle", "bytes_per_particle")
 SPEED_COLUMNS = ("mesh", "family", "method", "cells", "ratio", "particles", "threads", *SPEED)
 UNITS = {"step_ms": "ms", "bytes_per_particle": "B"}
 SHOWN = ("wrong_cells", "rms_error", "jump_largest", "wall_ratio", "step_ms", "bytes_per_particle")  # as figures
@@ -63,7 +64,7 @@ class MappingReport:
     def add_speed(self, mesh: Mesh, rows: list[Row]) -> None:
         for row in rows:
             self.speed.add({"mesh": mesh.name, "family": mesh.family, **row})
-            per_particle = sum(float(row[name]) for name in ("locate_ns", "weights_ns", "sums_ns"))
+            per_particle = sum(float(row[name]) for name in STAGES)
             where = f"_of_{row['particles']}"
             print(f"figure: mapping_ns_per_particle_{row['method']}_on_{mesh.name}{where} = {per_particle:.5g} [ns]")
             self.print_figures(mesh, row, where)
@@ -118,7 +119,7 @@ class MappingReport:
 
 
 def ns_per_particle(row: Row) -> str:
-    return f"{sum(float(row[name]) for name in ('locate_ns', 'weights_ns', 'sums_ns')):.0f}"
+    return f"{sum(float(row[name]) for name in STAGES):.0f}"
 
 
 def table_of(title: str, cells: dict[tuple[str, str], str]) -> str:

@@ -76,8 +76,9 @@ def draw_peers(rows: Rows, folder: Path) -> Path | None:
 
 
 def legend_below(figure: plt.Figure, handles: list, columns: int) -> None:
-    """One legend for all panels."""
-    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=min(columns, len(handles)),
+    """One legend for all panels, in as many lines as it takes, of about the same length."""
+    lines = -(-len(handles) // columns)
+    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=-(-len(handles) // lines),
                   columnspacing=1.2, handletextpad=0.4)
 
 

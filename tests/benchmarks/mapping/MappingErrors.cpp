@@ -19,7 +19,7 @@ using namespace gimdem::benchmark;
 struct Options
 {
     CommonOptions common;
-    int places = 10'000, lines = 200, sweeps = 50;
+    int places = 4000, lines = 100, sweeps = 50;
 };
 
 /// One particle at a time in the middle of a mesh wide enough for all methods, and a packing that has walls.
@@ -29,7 +29,7 @@ struct Scenes
         : alone({options.common.mesh, options.common.ratio, 15, 7}),
           packed({options.common.mesh, options.common.ratio, 28.4, 5}),
           probes(alone, options.places, options.lines),
-          few_probes(alone, options.places / 20, options.lines / 5),
+          few_probes(alone, options.places / 16, options.lines / 4),
           bed(packed.bed(packed.is_from_files ? bed_count : 0)),
           spheres(packed.packing(packed.is_from_files ? bed_count : 0, options.sweeps)),
           exact_alone(alone.mesh, "exact"),

@@ -33,17 +33,17 @@ struct SpeedScene
     explicit SpeedScene(Options const& options)
         : one({options.common.mesh, options.common.ratio, width_of(options), 1}), mesh(one.mesh.topology())
     {
-        auto spheres = one.packing(options.count, 4);
-        auto const in_one = static_cast<int>(spheres.size());
-        copies = static_cast<int>((options.count + in_one - 1) / in_one);
+        auto const in_one = one.packing(options.count, 4);
+        auto const copies = static_cast<int>((options.count - 1) / std::ssize(in_one)) + 1;
         double const spacing = 1.5 * (one.box.high.x() - one.box.low.x());
         if (copies > 1) mesh = PolyMesh(copies_of(one.mesh.topology(), copies, spacing));
-        while (std::ssize(spheres) < options.count)
-        {
-            test::Sphere next = spheres[spheres.size() - static_cast<std::size_t>(in_one)];
-            next.position.x() += spacing;
-            spheres.push_back(next);
-        }
+        std::vector<test::Sphere> spheres;
+        for (int copy = 0; copy < copies; ++copy)
+            for (test::Sphere sphere : in_one)
+            {
+                sphere.position.x() += copy * spacing;
+                spheres.push_back(sphere);
+            }
         spheres.resize(static_cast<std::size_t>(options.count));
         particles = test::particles_of(spheres);
         find_cells(in_one);
@@ -51,7 +51,6 @@ struct SpeedScene
 
     MappingScene one;
     PolyMesh mesh;
-    int copies = 1;
     ParticleState particles;
     exec::Buffer<std::int32_t> cells;  ///< of the particles: no walk leads from one copy to another
 
@@ -61,16 +60,20 @@ private:
         return std::cbrt(static_cast<double>(options.count) * (M_PI / 6) / solid_fraction) * (1 + 1e-9);
     }
 
-    void find_cells(int in_one)
+    /// Those of one copy, and as many cells further on for each further one.
+    void find_cells(std::vector<test::Sphere> const& in_one)
     {
-        StartCells const near(one.mesh);
-        double const spacing = 1.5 * (one.box.high.x() - one.box.low.x());
+        MappingSettings settings;
+        settings.method = "pcm";
+        Mapper mapper(test::serial, one.mesh, settings);
+        exec::Buffer<std::uint8_t> wall_faces(one.mesh.face_count());
+        wall_faces.fill(1);
+        mapper.locate(test::particles_of(in_one), wall_faces);
         cells.resize(particles.count());
         for (std::int64_t p = 0; p < particles.count(); ++p)
         {
-            auto const copy = static_cast<std::int32_t>(p / in_one);
-            Vec3 const x = particles.position[p].xyz() - copy * spacing * Vec3::UnitX();
-            cells[p] = CellWalker{one.mesh.view()}(near.near(x), x).cell + copy * one.mesh.cell_count();
+            auto const copy = static_cast<std::int32_t>(p / std::ssize(in_one));
+            cells[p] = mapper.cell_of()[p % std::ssize(in_one)] + copy * one.mesh.cell_count();
         }
     }
 };
