@@ -49,7 +49,7 @@ def print_figures(mesh: gmsh_mesh.MeshQuality) -> None:
         ("largest_cell", mesh.largest * mesh.cells / mesh.volume, "mean cell"),
         ("non_orthogonality", mesh.non_orthogonality, "deg"), ("skewness", mesh.skewness, "1"),
     ):
-        print(f"figure: {name} = {value:.16g} [{unit}]" if name == "mesh_volume" else f"figure: {name} = {value:.6g} [{unit}]")
+        print(f"figure: {name} = {value:.12g} [{unit}]")
 
 
 def mesh_source(case: Path, grid: str) -> Path:
