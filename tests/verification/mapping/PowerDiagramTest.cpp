@@ -75,8 +75,8 @@ TEST(PowerDiagram, PutsFewIntoWrongCellsOfAnyMesh)
     }
 }
 
-/// A loose bed: a lattice of spheres 1.08 diameters apart, each moved by up to 0.04 of a diameter along each axis, which
-/// none overlaps another by. A layer of a cell's size is left free at the sides.
+/// A loose bed: a lattice of spheres 1.08 diameters apart, each moved by up to 0.04 of a diameter along each axis,
+/// which none overlaps another by. A layer of a cell's size is left free at the sides.
 std::vector<Sphere> loose_bed(PolyMesh const& mesh, double radius)
 {
     std::mt19937_64 random(36);
@@ -88,7 +88,8 @@ std::vector<Sphere> loose_bed(PolyMesh const& mesh, double radius)
     for (int i = 0; i < n.prod(); ++i)
     {
         Vec3 const place(i % n[0] + 0.5, i / n[0] % n[1] + 0.5, i / n[0] / n[1] + 0.5);
-        spheres.push_back({mesh.low() + apart * place + Vec3(uniform(random), uniform(random), uniform(random)), radius});
+        spheres.push_back(
+            {mesh.low() + apart * place + Vec3(uniform(random), uniform(random), uniform(random)), radius});
     }
     return spheres;
 }

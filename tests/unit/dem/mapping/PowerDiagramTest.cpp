@@ -55,7 +55,8 @@ TEST(CellPotentials, DifferByTheDistanceToTheFaceBetweenBoxes)
             for (double const along : {-0.3, 0.0, 0.4})
             {
                 Vec3 const x = mesh.face_centre(f) + along * mesh.face_normal(f);
-                double const apart = potentials[view.owner[f]](Quad::of(x, 0)) - potentials[view.neighbour[f]](Quad::of(x, 0));
+                double const apart =
+                    potentials[view.owner[f]](Quad::of(x, 0)) - potentials[view.neighbour[f]](Quad::of(x, 0));
                 worst = std::max(worst, std::abs(apart - along));
             }
         EXPECT_LT(worst, tried.tolerance) << tried.edges.transpose();
