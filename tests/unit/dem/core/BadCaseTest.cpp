@@ -116,7 +116,8 @@ Mistake const mistakes[] = {
     {"UnknownBackend", "backend = \"serial\"", "backend = \"abacus\"",
      "case.toml:14: \"backend\" in [dem] is \"abacus\" (must be serial | openmp | cuda); write e.g. backend = \"openmp\""},
     {"UnknownMethod", "\"gim\"", "\"gmi\"",
-     "case.toml:46: \"method\" in [mapping] is \"gmi\" (must be gim | gim-fixed | pcm | divided | fbsi | kernel | diffusion | exact); did you mean \"gim\"?"},
+     "case.toml:46: \"method\" in [mapping] is \"gmi\" (must be gim | gim-fixed | pcm | divided | fbsi | kernel | diffusion | exact | "
+                              "power-diagram); did you mean \"gim\"?"},
     {"UnknownDrag", "[mapping]", "[fluid_forces]\ndrag = \"stokes\"\n[mapping]",
      "case.toml:46: \"drag\" in [fluid_forces] is \"stokes\" (must be none | beetstra); write e.g. drag = \"beetstra\""},
     {"EndpointWithoutPort", "\"ipc\"", "\"tcp://127.0.0.1\"",
