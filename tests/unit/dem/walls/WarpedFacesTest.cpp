@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Wall faces whose points are not in one plane, as on the curved walls of polyhedral meshes: what a sphere feels is the
-/// surface of the triangles around each face's centre, without steps from face to face.
+/// Wall faces whose points are not in one plane, as on the curved walls of polyhedral meshes: what a sphere feels is
+/// the surface of the triangles around each face's centre, without steps from face to face.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,9 +59,9 @@ double distance_to_bottom(PolyMesh const& mesh, Vec3 const& x)
         {
             auto const points = mesh.points_of_face(f);
             for (std::size_t k = 0; k < points.size(); ++k)
-                nearest = std::min(nearest, distance_to_triangle(x, {mesh.point(points[k]),
-                                                                     mesh.point(points[(k + 1) % points.size()]),
-                                                                     mesh.face_centre(f)}));
+                nearest = std::min(nearest, distance_to_triangle(
+                                                x, {mesh.point(points[k]), mesh.point(points[(k + 1) % points.size()]),
+                                                    mesh.face_centre(f)}));
         }
     return nearest;
 }
