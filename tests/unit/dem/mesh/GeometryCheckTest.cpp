@@ -151,7 +151,7 @@ TEST(GeometryCheck, FaceTooFarFromPlanarIsNamedWithItsWarp)
         return refusal(list.mesh());
     };
     EXPECT_EQ(bent(0.29), "");
-    expect_words(bent(0.33), {"face ", "of cell ", "not planar", "at most 0.3"});
+    expect_words(bent(0.33), {"face ", "of cell ", "not planar", "off its plane by 0.33 ", "at most 0.3"});
 }
 
 }  // namespace
