@@ -16,8 +16,8 @@ from bench_mapping_meshes import known
 from bench_plots import CROPPED, legend_below, saved
 
 Rows = list[dict[str, str]]
-PANELS = ("hexahedra-1", "hexahedra-1.76", "hexahedra-4", "stretched-2", "stretched-4", "tetrahedra", "polyhedra", "T",
-          "C", "D", "E")
+PANELS = ("hexahedra-1", "hexahedra-1.76", "hexahedra-2.38", "hexahedra-4", "stretched-2", "stretched-4", "tetrahedra",
+          "T", "polyhedra", "C", "D", "E")
 COLOURS = ("#0b5394", "#6fa8dc", "#b45f06", "#38761d", "#cc0000", "#741b47", "#999999", "#000000", "#bf9000", "#45818e",
            "#e06666", "#674ea7")
 MARKERS = "osD^vPX*<>hp"
@@ -78,7 +78,7 @@ def draw_pareto(errors: Rows, speed: Rows, quantity: Quantity, styles: Styles, p
     rows = -(-len(names) // columns)
     figure, panels = plt.subplots(rows, columns, figsize=(2.7 * columns, 2.2 * rows + 0.5), squeeze=False, sharex=True,
                                   sharey=True)
-    least = min(error for of_mesh in points.values() for _, error in of_mesh.values() if error > 0)
+    least = min((error for name in names for _, error in points[name].values() if error > 0), default=1e-3)
     floor = least / 4  # where the exact method is drawn, whose error is zero
     for axes, name in zip(panels.flat, names):
         front = draw_front(axes, points[name], floor)
@@ -147,7 +147,8 @@ def draw_meshes(errors: Rows, quantities: tuple[Quantity, ...], styles: Styles, 
              if not name.startswith("hexahedra-") or name == "hexahedra-1.76"]
     if not names:
         return None
-    figure, panels = plt.subplots(len(quantities), 1, figsize=(max(5.0, 0.85 * len(names)), 1.9 * len(quantities) + 1), squeeze=False, sharex=True)
+    size = (max(5.0, 0.85 * len(names)), 1.9 * len(quantities) + 1)
+    figure, panels = plt.subplots(len(quantities), 1, figsize=size, squeeze=False, sharex=True)
     for axes, quantity in zip(panels[:, 0], quantities):
         for place, method in enumerate(styles.methods):
             shift = 0.6 * (place / max(1, len(styles.methods) - 1) - 0.5)

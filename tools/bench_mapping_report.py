@@ -18,11 +18,11 @@ SPEED_COLUMNS = ("mesh", "family", "method", "cells", "ratio", "particles", "thr
 UNITS = {"step_ms": "ms", "bytes_per_particle": "B"}
 SHOWN = ("wrong_cells", "rms_error", "jump_largest", "wall_ratio", "step_ms", "bytes_per_particle")  # as figures
 TABLES = (
-    ("Share of a particle's volume in wrong cells", "wrong_cells", 1, "{:.4f}"),
-    ("RMS error of the solid fraction of a packing", "rms_error", 1, "{:.4f}"),
-    ("Largest jump of a solid fraction for a step of dp/100", "jump_largest", 1, "{:.5f}"),
-    ("Largest solid fraction of any cell", "largest_solid_fraction", 1, "{:.2f}"),
-    ("Solid in cells at walls, over that of `exact`", "wall_ratio", 1, "{:.3f}"),
+    ("Share of a particle's volume in wrong cells", "wrong_cells", "{:.4f}"),
+    ("RMS error of the solid fraction of a packing", "rms_error", "{:.4f}"),
+    ("Largest jump of a solid fraction for a step of dp/100", "jump_largest", "{:.5f}"),
+    ("Largest solid fraction of any cell", "largest_solid_fraction", "{:.2f}"),
+    ("Solid in cells at walls, over that of `exact`", "wall_ratio", "{:.3f}"),
 )
 
 
@@ -105,8 +105,8 @@ class MappingReport:
 
     def tables(self) -> str:
         errors, speed = self.in_order(self.errors), self.in_order(self.speed)
-        parts = [table_of(title, {(row["mesh"], row["method"]): text.format(float(row[name]) * scale) for row in errors})
-                 for title, name, scale, text in TABLES]
+        parts = [table_of(title, {(row["mesh"], row["method"]): text.format(float(row[name])) for row in errors},
+                          self.methods) for title, name, text in TABLES]
         for count in sorted({int(row["particles"]) for row in speed}):
             some = [row for row in speed if int(row["particles"]) == count and row["threads"] == "1"]
             for title, value in ((f"Time of a mapping of {count:,} particles [ns per particle]", ns_per_particle),
@@ -114,7 +114,7 @@ class MappingReport:
                                   lambda row: f"{float(row['step_ms']):.3g}"),
                                  (f"Memory of {count:,} particles [bytes per particle]",
                                   lambda row: f"{float(row['bytes_per_particle']):.0f}")):
-                parts.append(table_of(title, {(row["mesh"], row["method"]): value(row) for row in some}))
+                parts.append(table_of(title, {(row["mesh"], row["method"]): value(row) for row in some}, self.methods))
         return "\n".join(filter(None, parts))
 
 
@@ -122,12 +122,12 @@ def ns_per_particle(row: Row) -> str:
     return f"{sum(float(row[name]) for name in STAGES):.0f}"
 
 
-def table_of(title: str, cells: dict[tuple[str, str], str]) -> str:
+def table_of(title: str, cells: dict[tuple[str, str], str], order: list[str]) -> str:
     """Meshes down, methods across; empty where there is nothing."""
     if not cells:
         return ""
     meshes = list(dict.fromkeys(mesh for mesh, _ in cells))
-    methods = list(dict.fromkeys(method for _, method in cells))
+    methods = sorted({method for _, method in cells}, key=lambda name: order.index(name) if name in order else len(order))
     lines = [f"**{title}**", "", "| mesh | " + " | ".join(f"`{name}`" for name in methods) + " |",
              "|---|" + "---|" * len(methods)]
     for mesh in meshes:
