@@ -50,6 +50,14 @@ void refuse_on_devices(MappingSettings const& mapping)
                     mapping.method));
 }
 
+void refuse_reuse_on_devices(MappingSettings const& mapping)
+{
+    if (mapping.reuse_distance == 0) return;
+    throw UserError(
+        "[mapping] reuse_distance does not work on a GPU (it keeps no weights: it computes one faster than it reads "
+        "one); leave it out, or run on the processor with --device cpu");
+}
+
 Constant3 constant(Vec3 const& v)
 {
     return {v.x(), v.y(), v.z()};
@@ -74,6 +82,7 @@ CoupledEngine::CoupledEngine(Case const& settings, exec::Execution execution, Po
     if (DeviceDem* const device = system_.device())
     {
         refuse_on_devices(settings.mapping);
+        refuse_reuse_on_devices(settings.mapping);
         device->set_fluid({settings, fluid, mesh, mapper_, wall_faces_}, std::as_const(system_).particles());
     }
 }
