@@ -24,12 +24,14 @@ struct RunPoint
     double time = 0;        ///< [s]
 };
 
-/// Writes the checkpoint, whole or not at all, with the references of weights that are reused. The run goes on as if nothing had been written.
+/// Writes the checkpoint, whole or not at all, with the references of weights that are reused. The run goes on as if
+/// nothing had been written.
 void write_checkpoint(std::filesystem::path const& file, Case const& settings, RunPoint const& point,
                       std::vector<Inlet> const& inlets, DemSystem const& system, WeightReuse const* reuse = nullptr);
 
-/// Puts a checkpoint in place of the state of a system, the inlets and the references that were made from the same case. Throws
-/// UserError for a file that is cut short, changed, of another version or of another case; nothing is changed then.
+/// Puts a checkpoint in place of the state of a system, the inlets and the references that were made from the same
+/// case. Throws UserError for a file that is cut short, changed, of another version or of another case; nothing is
+/// changed then.
 RunPoint read_checkpoint(std::filesystem::path const& file, Case const& settings, std::vector<Inlet>& inlets,
                          DemSystem& system, WeightReuse* reuse = nullptr);
 

@@ -86,8 +86,7 @@ private:
             Octet const radius = Octet::Constant(particle.radius), per_radius = Octet::Constant(particle.per_radius);
             Octet const per_narrow = choose(cell_is_narrow, cell.per_radius, per_radius);
             s = choose(cell_is_narrow, radius, cell.radius) * per_narrow;
-            per_s = choose(cell_is_narrow, per_radius, cell.per_radius) *
-                    choose(cell_is_narrow, cell.radius, radius);
+            per_s = choose(cell_is_narrow, per_radius, cell.per_radius) * choose(cell_is_narrow, cell.radius, radius);
             Octet const per_deviation = per_narrow * (cell.per_coefficient * particle.per_coefficient);
             m2 = mu2 * (per_deviation * per_deviation);
         }
@@ -105,8 +104,7 @@ private:
 
         Octet const of_narrow = in_narrow(pair, c, limit2);
         Octet const per_cube = pair.per_s * pair.per_s * pair.per_s;
-        return choose(greater(c2, bound), zero,
-                      choose(pair.cell_is_narrow, Octet(per_cube * of_narrow), of_narrow));
+        return choose(greater(c2, bound), zero, choose(pair.cell_is_narrow, Octet(per_cube * of_narrow), of_narrow));
     }
 
     /// I / V_<, (G.12). The names are those of (G.6); limit2: 2 lambda.

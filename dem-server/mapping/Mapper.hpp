@@ -68,6 +68,7 @@ public:
 
     /// Null unless weights are reused.
     WeightReuse* reuse() { return reuse_ ? &*reuse_ : nullptr; }
+    WeightReuse const* reuse() const { return reuse_ ? &*reuse_ : nullptr; }
 
     // What a device needs to do the same.
     BoxGrid const& cell_grid() const { return cell_grid_; }
@@ -92,8 +93,8 @@ private:
     RowLayout layout_;
     exec::Buffer<double> weights_;
     std::optional<WeightReuse> reuse_;
-    exec::Buffer<std::int32_t> receivers_;  ///< cells that may get a share
-    exec::Buffer<std::uint8_t> receives_;   ///< 1 for those
+    exec::Buffer<std::int32_t> receivers_;    ///< cells that may get a share
+    exec::Buffer<std::uint8_t> receives_;     ///< 1 for those
     exec::Buffer<std::int64_t> first_share_;  ///< -1 for a cell without particles
     exec::Buffer<Share> shares_;
 };

@@ -106,10 +106,10 @@ void WeightReuse::renew_references(exec::Execution const& execution, ParticleSta
         row_.resize(n);
         forget_rows();
     }
-    exec::for_each(execution, n,
-                   RenewKernel{distance_, particles.position.view().data, rows.cell_of.view().data,
-                               reference_.particles.position.view().data, reference_.cell.view().data,
-                               row_.view().data});
+    exec::for_each(
+        execution, n,
+        RenewKernel{distance_, particles.position.view().data, rows.cell_of.view().data,
+                    reference_.particles.position.view().data, reference_.cell.view().data, row_.view().data});
 }
 
 void WeightReuse::compute_missing(exec::Execution const& execution, Method& method, Rows const& rows)
@@ -117,8 +117,8 @@ void WeightReuse::compute_missing(exec::Execution const& execution, Method& meth
     // All others are a group of their own, behind the cells.
     key_.resize(row_.size());
     exec::for_each(execution, row_.size(),
-                   [key = key_.view(), row = row_.view(), cell = rows.cell_of.view(), none = rows.cell_count](
-                       std::int64_t p) { key[p] = row[p] < 0 ? cell[p] : none; });
+                   [key = key_.view(), row = row_.view(), cell = rows.cell_of.view(),
+                    none = rows.cell_count](std::int64_t p) { key[p] = row[p] < 0 ? cell[p] : none; });
     exec::group_by_key(execution, key_.host(), rows.cell_count + 1, missing_by_cell_);
     missing_layout_.lay_out(method.candidates(), missing_by_cell_, rows.cell_count);
     missing_weights_.resize(missing_layout_.weight_count);
@@ -131,11 +131,10 @@ void WeightReuse::collect(exec::Execution const& execution, CellRows const& cand
 {
     swap(weights, weights_before_);
     weights.resize(rows.layout.weight_count);
-    exec::for_each_uneven(
-        execution, rows.layout.occupied.size(),
-        CollectKernel{rows.layout.occupied.view().data, rows.layout.rows(candidates, rows.by_cell),
-                      missing_layout_.first.view().data, missing_weights_.view().data, weights_before_.view().data,
-                      row_.view().data, weights.view().data});
+    exec::for_each_uneven(execution, rows.layout.occupied.size(),
+                          CollectKernel{rows.layout.occupied.view().data, rows.layout.rows(candidates, rows.by_cell),
+                                        missing_layout_.first.view().data, missing_weights_.view().data,
+                                        weights_before_.view().data, row_.view().data, weights.view().data});
 }
 
 }  // namespace gimdem

@@ -110,7 +110,7 @@ struct CubicCells
 
     /// The same weights, one pair after the other.
     template <class Shares>
-    void compute_plainly(Shares const& share)
+    void compute_plainly(Shares const& share) const
     {
         CellRows const& rows = mapper->layers();
         double weights[64];
@@ -144,11 +144,23 @@ double seconds(auto const& work)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+void compute_plainly(CubicCells const& cells, std::string const& method)
+{
+    if (method == "gim") cells.compute_plainly(test::PlainGim{cells.mesh.view()});
+    if (method == "fbsi") cells.compute_plainly(test::PlainFbsi{cells.mesh.view()});
+    if (method == "exact") cells.compute_plainly(test::PlainExact{cells.facets.view()});
+}
+bool has_plain_form(std::string const& method)
+{
+    return method == "gim" || method == "fbsi" || method == "exact";
+}
+
 /// Counters `name`_us_per_particle and, where the method has a plain form, `name`_speedup_over_scalar: the time of
 /// tests/support/PlainMappings.hpp over its own, by turns.
 void time_method(benchmark::State& state, TimedMethod const& timed)
 {
     CubicCells cells(timed);
+    bool const beside = timed.reuse_distance == 0;
     double quick = 0, plain = 0;
     for (auto _ : state)
     {
@@ -156,20 +168,13 @@ void time_method(benchmark::State& state, TimedMethod const& timed)
         double const time = seconds([&] { cells.mapper->compute_weights(cells.particles); });
         state.SetIterationTime(time);
         quick += time;
-        plain += seconds(
-            [&]
-            {
-                if (timed.method == "gim") cells.compute_plainly(test::PlainGim{cells.mesh.view()});
-                if (timed.method == "fbsi") cells.compute_plainly(test::PlainFbsi{cells.mesh.view()});
-                if (timed.method == "exact") cells.compute_plainly(test::PlainExact{cells.facets.view()});
-            });
+        if (beside) plain += seconds([&] { compute_plainly(cells, timed.method); });
     }
     std::string name = timed.name;
     std::ranges::replace(name, '-', '_');
     auto const per_particle = 1e6 / double(state.iterations() * cells.particles.count());
     state.counters[name + "_us_per_particle"] = quick * per_particle;
-    if (timed.method == "gim" || timed.method == "fbsi" || timed.method == "exact")
-        state.counters[name + "_speedup_over_scalar"] = plain / quick;
+    if (beside && has_plain_form(timed.method)) state.counters[name + "_speedup_over_scalar"] = plain / quick;
 }
 
 void add(TimedMethod const& timed)

@@ -178,16 +178,21 @@ TEST_P(DeviceFluidTest, LosesParticlesThroughTheOpenTopAsTheHostDoes)
 
 TEST_P(DeviceFluidTest, RefusesWaysOfMappingThatItDoesNotHave)
 {
-    Case settings = CoupledScene::made();
-    settings.mapping.method = "exact";
-    try
+    Case other_method = CoupledScene::made(), reuse = CoupledScene::made();
+    other_method.mapping.method = "exact";
+    reuse.mapping.reuse_distance = 0.02;
+    for (auto const& [settings, words] :
+         {std::pair(other_method, "\"exact\" does not run on a GPU"), std::pair(reuse, "reuse_distance does not work")})
     {
-        CoupledScene const scene(GetParam(), 1, settings);
-        FAIL() << "a device has gim alone";
-    }
-    catch (UserError const& error)
-    {
-        EXPECT_NE(std::string(error.what()).find("\"exact\" does not run on a GPU"), std::string::npos) << error.what();
+        try
+        {
+            CoupledScene const scene(GetParam(), 1, settings);
+            FAIL() << "a device has gim alone, and keeps no weights: " << words;
+        }
+        catch (UserError const& error)
+        {
+            EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+        }
     }
 }
 

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -39,10 +38,7 @@ struct Walk
     {
     }
     Walk(PolyMesh const& on, std::string_view name, ParticleState some, exec::Execution execution = serial)
-        : mesh(on),
-          particles(std::move(some)),
-          mapper(execution, mesh, reusing(name)),
-          walls(mesh.face_count())
+        : mesh(on), particles(std::move(some)), mapper(execution, mesh, reusing(name)), walls(mesh.face_count())
     {
         walls.fill(1);
         map();
@@ -72,19 +68,7 @@ struct Walk
         particles.permute(serial, order);
         mapper.permute(order);
     }
-    /// Rows of weights by id.
-    std::map<std::int64_t, std::vector<double>> rows() const
-    {
-        std::map<std::int64_t, std::vector<double>> by_id;
-        CellRows const& layers = mapper.layers();
-        std::int64_t at = 0;
-        for (std::int32_t c = 0; c < mesh.cell_count(); ++c)
-            for (std::int64_t p = 0; p < particles.count(); ++p)
-                if (mapper.cell_of()[p] == c)
-                    for (auto k = layers.offsets[c]; k < layers.offsets[c + 1]; ++k)
-                        by_id[particles.id[p]].push_back(mapper.weights()[at++]);
-        return by_id;
-    }
+    auto rows() const { return rows_by_id(mapper, particles); }
 
     PolyMesh const& mesh;
     ParticleState particles;
