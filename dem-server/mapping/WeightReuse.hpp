@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Weights that serve again while a particle has hardly moved, theory.md (G.15).
+/// Weights that serve again while a particle has hardly moved, theory.md (G.19).
 ///
 /// The weights of a particle are always those of its reference: the place and the cell where they were computed last.
 /// So they depend neither on what is kept of them nor on the order of the particles, and a restart needs the references

@@ -212,7 +212,7 @@ double largest_error(std::string_view name)
 TEST(WeightReuse, OfTheExactOverlapErrsByTheDistanceAtMost)
 {
     double const error = largest_error("exact");
-    // (G.16), which a plane through the centre and across the way reaches.
+    // (G.19), which a plane through the centre and across the way reaches.
     EXPECT_LT(error, 1.5 * distance);
     EXPECT_GT(error, 0.8 * 1.5 * distance);
     figure("reuse_error_of_exact", error / distance);
