@@ -123,7 +123,7 @@ public:
         if (restart)
         {
             system_.prepare();
-            start_ = at_ = read_checkpoint(*restart, settings_, inlets_, system_);
+            start_ = at_ = read_checkpoint(*restart, settings_, inlets_, system_, engine_.weight_reuse());
             require_time_left(*restart, at_, settings_.run.until);
             fmt::print(stderr, "gimdem-server: {} particles from {:.6g} s\n", system_.particles().count(), at_.time);
         }
@@ -191,7 +191,7 @@ private:
 
     void keep()
     {
-        write_checkpoint(checkpoint_file(folder_, at_), settings_, at_, inlets_, system_);
+        write_checkpoint(checkpoint_file(folder_, at_), settings_, at_, inlets_, system_, engine_.weight_reuse());
         keep_newest_checkpoints(folder_);
     }
 

@@ -195,6 +195,7 @@ struct MappingSettings
     std::int64_t points = 29;            ///< of method divided
     double coefficient = 0.4;            ///< phi of method gim-fixed
     double bandwidth = 2;                ///< b of methods kernel and diffusion, in particle diameters
+    double reuse_distance = 0;           ///< how far weights serve, in particle diameters; 0: not at all
     double void_fraction_minimum = 0.1;  ///< smaller values are clipped and counted
 };
 

@@ -258,6 +258,8 @@ Fields<MappingSettings> const& settings_of(MappingSettings const&)
                  "phi of method gim-fixed"),
         optional("bandwidth",             &S::bandwidth,             "", above(0), "2.0",
                  "b of methods kernel and diffusion, in particle diameters"),
+        optional("reuse_distance",        &S::reuse_distance,        "", at_least(0), "0.02",
+                 "how far a particle may move, in its diameters, before its weights are computed anew; 0: at every step"),
         optional("void_fraction_minimum", &S::void_fraction_minimum, "", between(0, 1), "0.1",
                  "smaller void fractions are clipped to this and counted"),
     };

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "core/Error.hpp"
+#include "engine/ReferenceFile.hpp"
 #include "engine/StateFile.hpp"
 #include "output/Snapshot.hpp"
 
@@ -112,7 +113,7 @@ void check_case(output::SnapshotReader const& reader, Case const& settings, std:
 }  // namespace
 
 void write_checkpoint(std::filesystem::path const& file, Case const& settings, RunPoint const& point,
-                      std::vector<Inlet> const& inlets, DemSystem const& system)
+                      std::vector<Inlet> const& inlets, DemSystem const& system, WeightReuse const* reuse)
 {
     std::filesystem::create_directories(file.parent_path());
     output::SnapshotWriter writer(file, kind);
@@ -125,11 +126,12 @@ void write_checkpoint(std::filesystem::path const& file, Case const& settings, R
     add_inlets(writer, inlets);
     add_removed(writer, system.removed());
     add_state(writer, system);
+    if (reuse != nullptr) add_reference(writer, reuse->reference());
     writer.commit();
 }
 
 RunPoint read_checkpoint(std::filesystem::path const& file, Case const& settings, std::vector<Inlet>& inlets,
-                         DemSystem& system)
+                         DemSystem& system, WeightReuse* reuse)
 {
     output::SnapshotReader const reader(file, kind);
     check_case(reader, settings, inlets.size(), file);
@@ -137,9 +139,11 @@ RunPoint read_checkpoint(std::filesystem::path const& file, Case const& settings
     auto const next_id = reader.integer("next_id");
     auto const states = inlets_of(reader);
     auto removed = removed_of(reader);
+    auto reference = reuse == nullptr ? WeightReference{} : reference_of(reader);
     take_state(reader, static_cast<int>(settings.materials.size()), system);
     system.set_next_id(next_id);
     system.removed() = std::move(removed);
+    if (reuse != nullptr) reuse->restore(std::move(reference));
     for (std::size_t i = 0; i < inlets.size(); ++i)
         inlets[i].restore(states[i]);
     return point;

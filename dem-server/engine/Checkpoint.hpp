@@ -8,6 +8,7 @@
 
 #include "core/Case.hpp"
 #include "engine/DemSystem.hpp"
+#include "mapping/WeightReuse.hpp"
 #include "particles/Inlet.hpp"
 
 namespace gimdem
@@ -23,14 +24,16 @@ struct RunPoint
     double time = 0;        ///< [s]
 };
 
-/// Writes the checkpoint, whole or not at all. The run goes on as if nothing had been written.
+/// Writes the checkpoint, whole or not at all, with the references of weights that are reused. The run goes on as if
+/// nothing had been written.
 void write_checkpoint(std::filesystem::path const& file, Case const& settings, RunPoint const& point,
-                      std::vector<Inlet> const& inlets, DemSystem const& system);
+                      std::vector<Inlet> const& inlets, DemSystem const& system, WeightReuse const* reuse = nullptr);
 
-/// Puts a checkpoint in place of the state of a system and the inlets that were made from the same case. Throws
-/// UserError for a file that is cut short, changed, of another version or of another case; nothing is changed then.
+/// Puts a checkpoint in place of the state of a system, the inlets and the references that were made from the same
+/// case. Throws UserError for a file that is cut short, changed, of another version or of another case; nothing is
+/// changed then.
 RunPoint read_checkpoint(std::filesystem::path const& file, Case const& settings, std::vector<Inlet>& inlets,
-                         DemSystem& system);
+                         DemSystem& system, WeightReuse* reuse = nullptr);
 
 /// Throws UserError for a run that would end at `until` [s], where its checkpoint is, or before.
 void require_time_left(std::filesystem::path const& file, RunPoint const& point, double until);

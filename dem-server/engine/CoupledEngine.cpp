@@ -38,6 +38,14 @@ Vec3 vector_sum(exec::Execution execution, std::int64_t count, Value value)
     return total.vec();
 }
 
+void refuse_reuse_on_devices(MappingSettings const& mapping)
+{
+    if (mapping.reuse_distance == 0) return;
+    throw UserError(
+        "[mapping] reuse_distance does not work on a GPU (it keeps no weights: it computes one faster than it reads "
+        "one); leave it out, or run on the processor with --device cpu");
+}
+
 Constant3 constant(Vec3 const& v)
 {
     return {v.x(), v.y(), v.z()};
@@ -60,7 +68,10 @@ CoupledEngine::CoupledEngine(Case const& settings, exec::Execution execution, Po
         wall_faces_[f] = walls.is_wall_face(f);
     system_.set_permutation_listener([this](std::span<std::int32_t const> order) { mapper_.permute(order); });
     if (DeviceDem* const device = system_.device())
+    {
+        refuse_reuse_on_devices(settings.mapping);
         device->set_fluid({settings, fluid, mesh, mapper_, wall_faces_}, std::as_const(system_).particles());
+    }
 }
 
 void CoupledEngine::load_fluid(coupling::FluidFields const& fluid)

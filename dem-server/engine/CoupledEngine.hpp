@@ -50,6 +50,9 @@ public:
     /// Particles that come during the run; `inlets` outlives the engine.
     void set_inlets(std::vector<Inlet>& inlets) { inlets_ = &inlets; }
 
+    /// For checkpoints; null unless weights are reused.
+    WeightReuse* weight_reuse() { return mapper_.reuse(); }
+
     std::int64_t particle_clips() const;
     exec::Buffer<double> const& void_fraction() const { return void_fraction_; }
 

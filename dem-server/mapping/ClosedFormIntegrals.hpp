@@ -59,8 +59,7 @@ public:
 private:
     using Octet = exec::Octet;
 
-    /// -ln 1e-18.
-    static constexpr double nothing = 41.45;
+    static constexpr double nothing = 41.45;  ///< -ln 1e-18
 
     struct ParticleSize
     {
@@ -73,51 +72,69 @@ private:
         Octet per_coefficient;  ///< their factors of 1 / phi
     };
 
-    /// The names are those of (G.6) and (G.12).
+    /// A particle and eight cells as (G.6) has them.
+    struct PairOctet
+    {
+        exec::OctetMask cell_is_narrow;
+        Octet s, per_s, log_s;
+        Octet m2;  ///< m^2
+
+        PairOctet(ParticleSize const& particle, CellOctet const& cell, Octet const& mu2)
+            : cell_is_narrow(greater(Octet::Constant(particle.log_radius), cell.log_radius)),
+              log_s(exec::magnitude(Octet(cell.log_radius - particle.log_radius)))
+        {
+            Octet const radius = Octet::Constant(particle.radius), per_radius = Octet::Constant(particle.per_radius);
+            Octet const per_narrow = choose(cell_is_narrow, cell.per_radius, per_radius);
+            s = choose(cell_is_narrow, radius, cell.radius) * per_narrow;
+            per_s = choose(cell_is_narrow, per_radius, cell.per_radius) * choose(cell_is_narrow, cell.radius, radius);
+            Octet const per_deviation = per_narrow * (cell.per_coefficient * particle.per_coefficient);
+            m2 = mu2 * (per_deviation * per_deviation);
+        }
+    };
+
+    /// I / V_p.
     static Octet integrals(ParticleSize const& particle, CellOctet const& cell, Octet const& mu2)
+    {
+        PairOctet const pair(particle, cell, mu2);
+        Octet const c = pair.m2 - 4 * (pair.s * pair.s) * pair.log_s;
+        Octet const limit2 = 2 * (nothing + pair.log_s);
+        Octet const c2 = c * exec::magnitude(c), bound = limit2 * ((1 + pair.s) * (1 + pair.s)) * pair.m2;
+        Octet const zero = Octet::Constant(0);
+        if (exec::greater_lanes(c2, bound) == exec::all_lanes) return zero;
+
+        Octet const of_narrow = in_narrow(pair, c, limit2);
+        Octet const per_cube = pair.per_s * pair.per_s * pair.per_s;
+        return choose(greater(c2, bound), zero, choose(pair.cell_is_narrow, Octet(per_cube * of_narrow), of_narrow));
+    }
+
+    /// I / V_<, (G.12). The names are those of (G.6); limit2: 2 lambda.
+    static Octet in_narrow(PairOctet const& pair, Octet const& c, Octet const& limit2)
     {
         using namespace exec;
         Octet const one = Octet::Constant(1), zero = Octet::Constant(0);
-        Octet const radius = Octet::Constant(particle.radius), per_radius = Octet::Constant(particle.per_radius);
-        auto const cell_is_narrow = greater(Octet::Constant(particle.log_radius), cell.log_radius);
-        Octet const per_narrow = choose(cell_is_narrow, cell.per_radius, per_radius);
-        Octet const s = choose(cell_is_narrow, radius, cell.radius) * per_narrow;
-        Octet const log_s = magnitude(Octet(cell.log_radius - particle.log_radius));
-        Octet const per_deviation = per_narrow * (cell.per_coefficient * particle.per_coefficient);
-        Octet const m2 = mu2 * (per_deviation * per_deviation);
-
-        Octet const c = m2 - 4 * (s * s) * log_s;
-        Octet const limit2 = 2 * (nothing + log_s);
-        Octet const c2 = c * magnitude(c), bound = limit2 * ((1 + s) * (1 + s)) * m2;
-        if (greater_lanes(c2, bound) == all_lanes) return zero;
-
-        Octet const m = root(m2);
-        Octet const a = at_least(0.0, Octet(s * s - one));
-        Octet const discriminant = plus_product(m2, a, c);
+        double const h = 0.70710678118654752440;
+        Octet const m = root(pair.m2);
+        Octet const a = at_least(0.0, Octet(pair.s * pair.s - one));
+        Octet const discriminant = plus_product(pair.m2, a, c);
         auto const crosses = greater(discriminant, zero);
         Octet const sum = m + root(choose(crosses, discriminant, one));
-        Octet const per_s =
-            choose(cell_is_narrow, per_radius, cell.per_radius) * choose(cell_is_narrow, cell.radius, radius);
 
-        double const h = 0.70710678118654752440;
         Octet const right = c / sum;
-        Octet const z0 = h * right, z2 = h * (m - right) * per_s;
-        Octet const tail = scaled_erfc(magnitude(z0)), core = s * scaled_erfc(z2);
+        Octet const z0 = h * right, z2 = h * (m - right) * pair.per_s;
+        Octet const tail = scaled_erfc(magnitude(z0)), core = pair.s * scaled_erfc(z2);
         auto const is_left = greater(zero, z0);
-        Octet integral = choose(is_left, Octet(zero + 2), zero) +
-                         exponential(Octet(-z0 * z0)) * (core + choose(is_left, -tail, tail));
+        Octet twice = choose(is_left, Octet(zero + 2), zero) +
+                      exponential(Octet(-z0 * z0)) * (core + choose(is_left, -tail, tail));
 
-        Octet const sum2 = sum * sum, left_bound = limit2 * (a * a);
-        if (greater_lanes(left_bound, sum2) != 0)
+        Octet const sum2 = sum * sum, bound = limit2 * (a * a);
+        if (greater_lanes(bound, sum2) != 0)
         {
             Octet const left = sum / a;  // of the narrow one's centre
-            Octet const z1 = h * left, z3 = h * (m + left) * per_s;
-            Octet const both = exponential(Octet(-z1 * z1)) * (scaled_erfc(z1) - s * scaled_erfc(z3));
-            integral = choose(greater(left_bound, sum2), Octet(integral + both), integral);
+            Octet const z1 = h * left, z3 = h * (m + left) * pair.per_s;
+            Octet const tails = exponential(Octet(-z1 * z1)) * (scaled_erfc(z1) - pair.s * scaled_erfc(z3));
+            twice = choose(greater(bound, sum2), Octet(twice + tails), twice);
         }
-        Octet const of_narrow = choose(crosses, Octet(0.5 * integral), one);
-        Octet const of_particle = choose(cell_is_narrow, Octet(per_s * per_s * per_s * of_narrow), of_narrow);
-        return choose(greater(c2, bound), zero, of_particle);
+        return choose(crosses, Octet(0.5 * twice), one);
     }
 
     CandidateCentres const& at_;

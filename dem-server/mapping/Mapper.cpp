@@ -50,9 +50,10 @@ private:
     }
 };
 
-/// Sums of one cell: its shares of the particles in the cells around it.
+/// Sums of the i-th cell that receives: its shares of the particles in the cells around it.
 struct TakeKernel
 {
+    std::int32_t const* receivers;
     std::int32_t const* layer_offsets;
     std::int32_t const* layer_cells;
     std::int32_t const* reverse_slot;
@@ -61,8 +62,9 @@ struct TakeKernel
     double* solid_volume;
     Quad* drag;
 
-    GIMDEM_HD void operator()(std::int64_t c) const
+    GIMDEM_HD void operator()(std::int64_t i) const
     {
+        std::int32_t const c = receivers[i];
         Share sum{};
         for (std::int32_t k = layer_offsets[c]; k < layer_offsets[c + 1]; ++k)
         {
@@ -80,6 +82,7 @@ Mapper::Mapper(exec::Execution execution, PolyMesh const& mesh, MappingSettings 
     : execution_(execution), mesh_(mesh), method_(make_method(settings, execution, mesh)), cell_grid_(cell_boxes(mesh))
 {
     find_reverse_slots();
+    if (settings.reuse_distance > 0) reuse_.emplace(settings.reuse_distance);
 }
 
 void Mapper::find_reverse_slots()
@@ -130,35 +133,44 @@ void Mapper::refuse_outside(ParticleState const& particles, std::int64_t particl
                     particles.id[particle], x.x(), x.y(), x.z()));
 }
 
-// Consecutive rows for the particles of a cell, cell after cell.
 void Mapper::lay_out_rows()
 {
     CellRows const& layers = method_->candidates();
-    first_weight_.resize(mesh_.cell_count());
+    layout_.lay_out(layers, by_cell_, mesh_.cell_count());
     first_share_.resize(mesh_.cell_count());
-    occupied_.resize(mesh_.cell_count());
-    std::int64_t n_occupied = 0, n_weights = 0, n_shares = 0;
+    first_share_.fill(-1);
+    std::int64_t n_shares = 0;
+    for (std::int32_t const c : layout_.occupied.host())
+    {
+        first_share_[c] = n_shares;
+        n_shares += layers.offsets[c + 1] - layers.offsets[c];
+    }
+    shares_.resize(n_shares);
+    find_receivers();
+}
+
+// Occupied cells and their candidates; where that is most of the mesh, all cells, without looking.
+void Mapper::find_receivers()
+{
+    CellRows const& layers = method_->candidates();
+    receivers_.resize(mesh_.cell_count());
+    receives_.resize(mesh_.cell_count());
+    receives_.fill(2 * layout_.occupied.size() > mesh_.cell_count());
+    for (std::int32_t const c : layout_.occupied.host())
+        for (std::int32_t k = layers.offsets[c]; k < layers.offsets[c + 1]; ++k)
+            receives_[layers.cells[k]] = 1;
+    std::int64_t count = 0;
     for (std::int32_t c = 0; c < mesh_.cell_count(); ++c)
     {
-        std::int64_t const n_particles = by_cell_.offsets[c + 1] - by_cell_.offsets[c];
-        std::int64_t const length = layers.offsets[c + 1] - layers.offsets[c];
-        first_weight_[c] = n_weights;
-        first_share_[c] = n_particles > 0 ? n_shares : -1;
-        n_weights += n_particles * length;
-        if (n_particles == 0) continue;
-        n_shares += length;
-        occupied_[n_occupied++] = c;
+        receivers_[count] = c;
+        count += receives_[c];
     }
-    occupied_.resize(n_occupied);
-    weights_.resize(n_weights);
-    shares_.resize(n_shares);
+    receivers_.resize(count);
 }
 
 WeightRows Mapper::rows() const
 {
-    CellRows const& layers = method_->candidates();
-    return {layers.offsets.view().data, layers.cells.view().data, by_cell_.offsets.view().data,
-            by_cell_.members.view().data, first_weight_.view().data};
+    return layout_.rows(method_->candidates(), by_cell_);
 }
 
 bool Mapper::prepare(ParticleState const& particles)
@@ -170,29 +182,39 @@ bool Mapper::prepare(ParticleState const& particles)
 
 void Mapper::compute_weights(ParticleState const& particles)
 {
-    prepare(particles);
+    bool const others = prepare(particles);
     lay_out_rows();
-    method_->compute_weights({execution_, particles, occupied_, rows(), weights_.view().data});
+    if (reuse_)
+    {
+        if (others) reuse_->forget_rows();
+        return reuse_->fill(execution_, *method_, particles, {mesh_.cell_count(), cell_of_, by_cell_, layout_},
+                            weights_);
+    }
+    weights_.resize(layout_.weight_count);
+    method_->compute_weights({execution_, particles, layout_.occupied, rows(), weights_.view().data});
 }
 
 void Mapper::sum_into_cells(ParticleState const& particles, exec::Buffer<Impulse> const& impulses, CellSums& sums)
 {
     exec::for_each_uneven(
-        execution_, occupied_.size(),
-        GiveKernel{occupied_.view().data, rows(), weights_.view().data, particles.position.view().data,
+        execution_, layout_.occupied.size(),
+        GiveKernel{layout_.occupied.view().data, rows(), weights_.view().data, particles.position.view().data,
                    impulses.size() == particles.count() ? impulses.view().data : nullptr, first_share_.view().data,
                    shares_.view().data});
     sums.solid_volume.resize(mesh_.cell_count());
     sums.drag.resize(mesh_.cell_count());
-    exec::for_each(
-        execution_, mesh_.cell_count(),
-        TakeKernel{rows().layer_offsets, rows().layer_cells, reverse_slot_.view().data, first_share_.view().data,
-                   shares_.view().data, sums.solid_volume.view().data, sums.drag.view().data});
+    sums.solid_volume.fill(0);
+    sums.drag.fill({0, 0, 0, 0});
+    exec::for_each(execution_, receivers_.size(),
+                   TakeKernel{receivers_.view().data, rows().layer_offsets, rows().layer_cells,
+                              reverse_slot_.view().data, first_share_.view().data, shares_.view().data,
+                              sums.solid_volume.view().data, sums.drag.view().data});
     method_->spread(sums);
 }
 
 void Mapper::permute(std::span<std::int32_t const> order)
 {
+    if (reuse_) reuse_->permute(order);
     std::int64_t const before = cell_of_.size(), after = std::ssize(order);
     if (before == 0) return;
     if (after > before) cell_of_.resize(after);

@@ -7,13 +7,16 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "exec/Buffer.hpp"
 #include "exec/Execution.hpp"
 #include "exec/Sort.hpp"
 #include "mapping/Method.hpp"
+#include "mapping/RowLayout.hpp"
 #include "mapping/Share.hpp"
+#include "mapping/WeightReuse.hpp"
 #include "mesh/BoxGrid.hpp"
 #include "mesh/PolyMesh.hpp"
 #include "particles/ParticleState.hpp"
@@ -66,6 +69,10 @@ public:
     exec::Buffer<double> const& weights() const { return weights_; }
     CellRows const& layers() const { return method_->candidates(); }
 
+    /// Null unless weights are reused.
+    WeightReuse* reuse() { return reuse_ ? &*reuse_ : nullptr; }
+    WeightReuse const* reuse() const { return reuse_ ? &*reuse_ : nullptr; }
+
     // What a device needs to do the same.
     BoxGrid const& cell_grid() const { return cell_grid_; }
     Method& method() { return *method_; }
@@ -74,6 +81,7 @@ public:
 private:
     void find_reverse_slots();
     void lay_out_rows();
+    void find_receivers();
     WeightRows rows() const;
 
     exec::Execution execution_;
@@ -85,9 +93,11 @@ private:
     exec::Buffer<std::int32_t> cell_of_;
     exec::Groups by_cell_;
     std::vector<Leaver> left_;
-    exec::Buffer<std::int32_t> occupied_;  ///< cells that hold particles
-    exec::Buffer<std::int64_t> first_weight_;
+    RowLayout layout_;
     exec::Buffer<double> weights_;
+    std::optional<WeightReuse> reuse_;
+    exec::Buffer<std::int32_t> receivers_;    ///< cells that may get a share
+    exec::Buffer<std::uint8_t> receives_;     ///< 1 for those
     exec::Buffer<std::int64_t> first_share_;  ///< -1 for a cell without particles
     exec::Buffer<Share> shares_;
 };

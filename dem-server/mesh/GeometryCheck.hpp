@@ -8,7 +8,8 @@ namespace gimdem
 {
 
 /// The points of a face may be off its plane by this part of the cube root of the smaller of its cells' volumes.
-constexpr double largest_face_warp = 0.3;
+/// Duals of good tetrahedral meshes have up to 0.31.
+constexpr double largest_face_warp = 0.5;
 /// The sum of a cell's face areas, which is zero where it is closed, may be this part of their magnitudes.
 constexpr double largest_opening = 1e-6;
 /// A cell's volume is at least this part of its surface to the power of 3/2 (a cube's is 0.068).

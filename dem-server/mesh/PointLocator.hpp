@@ -86,7 +86,7 @@ struct CellFinder
     {
         CellWalker const walk{mesh};
         Location const here = walk(last < 0 ? grid.near(x) : last, x);
-        if (here.is_certain) return here;
+        if (here.is_certain || CellSide{mesh}(here.cell, x) == Side::inside) return {here.cell, 0, -1, here.is_certain};
         std::int32_t const cell = enclosing_cell(x);
         if (cell >= 0) return {cell, 0, -1, false};
         if (here.face < 0 || last < 0) return here;

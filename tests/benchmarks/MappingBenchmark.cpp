@@ -83,15 +83,24 @@ BENCHMARK_CAPTURE(time_per_particle, sums, radius, sums)->Unit(benchmark::kMilli
 namespace
 {
 
-/// 10,000 particles among 20^3 cubic cells of the edge a, of radii that differ by up to `spread`.
+/// What is timed, and what its counters are called.
+struct TimedMethod
+{
+    std::string method, name;
+    double spread = 0;          ///< by which radii differ, relatively
+    double reuse_distance = 0;  ///< of the case file; 1e-12: everything is renewed
+};
+
+/// 10,000 particles among 20^3 cubic cells of the edge a.
 struct CubicCells
 {
-    CubicCells(std::string_view method, double spread)
-        : particles(test::particles_of(
-              test::random_spheres(10'000, {0, 0, 0}, {20, 20, 20}, radius * (1 - spread), radius * (1 + spread))))
+    explicit CubicCells(TimedMethod const& timed)
+        : particles(test::particles_of(test::random_spheres(10'000, {0, 0, 0}, {20, 20, 20},
+                                                            radius * (1 - timed.spread), radius * (1 + timed.spread))))
     {
         MappingSettings settings;
-        settings.method = method;
+        settings.method = timed.method;
+        settings.reuse_distance = timed.reuse_distance;
         mapper = std::make_unique<Mapper>(test::serial, mesh, settings);
         exec::Buffer<std::uint8_t> wall_faces(mesh.face_count());
         wall_faces.fill(1);
@@ -101,7 +110,7 @@ struct CubicCells
 
     /// The same weights, one pair after the other.
     template <class Shares>
-    void compute_plainly(Shares const& share)
+    void compute_plainly(Shares const& share) const
     {
         CellRows const& rows = mapper->layers();
         double weights[64];
@@ -112,6 +121,13 @@ struct CubicCells
                                 rows.offsets[c + 1] - rows.offsets[c], weights);
             benchmark::DoNotOptimize(weights[0]);
         }
+    }
+
+    /// By next to nothing.
+    void move()
+    {
+        for (Quad& x : particles.position.host())
+            x.x += 1e-10;
     }
 
     static constexpr double radius = 0.5 / 1.76;
@@ -128,35 +144,42 @@ double seconds(auto const& work)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+void compute_plainly(CubicCells const& cells, std::string const& method)
+{
+    if (method == "gim") cells.compute_plainly(test::PlainGim{cells.mesh.view()});
+    if (method == "fbsi") cells.compute_plainly(test::PlainFbsi{cells.mesh.view()});
+    if (method == "exact") cells.compute_plainly(test::PlainExact{cells.facets.view()});
+}
+bool has_plain_form(std::string const& method)
+{
+    return method == "gim" || method == "fbsi" || method == "exact";
+}
+
 /// Counters `name`_us_per_particle and, where the method has a plain form, `name`_speedup_over_scalar: the time of
 /// tests/support/PlainMappings.hpp over its own, by turns.
-void time_method(benchmark::State& state, std::string const& method, std::string name, double spread)
+void time_method(benchmark::State& state, TimedMethod const& timed)
 {
-    CubicCells cells(method, spread);
+    CubicCells cells(timed);
+    bool const beside = timed.reuse_distance == 0;
     double quick = 0, plain = 0;
     for (auto _ : state)
     {
+        cells.move();
         double const time = seconds([&] { cells.mapper->compute_weights(cells.particles); });
         state.SetIterationTime(time);
         quick += time;
-        plain += seconds(
-            [&]
-            {
-                if (method == "gim") cells.compute_plainly(test::PlainGim{cells.mesh.view()});
-                if (method == "fbsi") cells.compute_plainly(test::PlainFbsi{cells.mesh.view()});
-                if (method == "exact") cells.compute_plainly(test::PlainExact{cells.facets.view()});
-            });
+        if (beside) plain += seconds([&] { compute_plainly(cells, timed.method); });
     }
+    std::string name = timed.name;
     std::ranges::replace(name, '-', '_');
     auto const per_particle = 1e6 / double(state.iterations() * cells.particles.count());
     state.counters[name + "_us_per_particle"] = quick * per_particle;
-    if (method == "gim" || method == "fbsi" || method == "exact")
-        state.counters[name + "_speedup_over_scalar"] = plain / quick;
+    if (beside && has_plain_form(timed.method)) state.counters[name + "_speedup_over_scalar"] = plain / quick;
 }
 
-void add_method(std::string const& method, std::string const& name, double spread)
+void add(TimedMethod const& timed)
 {
-    benchmark::RegisterBenchmark(fmt::format("method/{}", name).c_str(), time_method, method, name, spread)
+    benchmark::RegisterBenchmark(fmt::format("method/{}", timed.name).c_str(), time_method, timed)
         ->Unit(benchmark::kMillisecond)
         ->UseManualTime();
 }
@@ -166,10 +189,14 @@ void add_method(std::string const& method, std::string const& name, double sprea
 int main(int argc, char** argv)
 {
     for (std::string_view const method : mapping_method_names)
-        add_method(std::string(method), std::string(method), 0);
-    // More radii than there are tables for.
+        add({std::string(method), std::string(method)});
     for (std::string const method : {"gim", "gim-fixed"})
-        add_method(method, method + "-many-radii", 0.05);
+        add({method, method + "-many-radii", 0.05});  // more than there are tables for
+    for (std::string const method : {"gim", "fbsi", "exact"})
+    {
+        add({method, method + "-reused", 0, 0.02});
+        add({method, method + "-renewed", 0, 1e-12});
+    }
     benchmark::Initialize(&argc, argv);
     benchmark::RunSpecifiedBenchmarks();
     return 0;

@@ -21,6 +21,20 @@ inline MappingSettings method(std::string_view name)
     return settings;
 }
 
+/// Weights of each particle, by its id.
+inline std::map<std::int64_t, std::vector<double>> rows_by_id(Mapper const& mapper, ParticleState const& particles)
+{
+    std::map<std::int64_t, std::vector<double>> by_id;
+    CellRows const& layers = mapper.layers();
+    std::int64_t at = 0;
+    for (std::int32_t c = 0; c < layers.offsets.size() - 1; ++c)
+        for (std::int64_t p = 0; p < particles.count(); ++p)
+            if (mapper.cell_of()[p] == c)
+                for (auto k = layers.offsets[c]; k < layers.offsets[c + 1]; ++k)
+                    by_id[particles.id[p]].push_back(mapper.weights()[at++]);
+    return by_id;
+}
+
 /// Some spheres on a mesh, all of whose boundary is walls.
 struct Mapped
 {

@@ -200,6 +200,21 @@ TEST_P(DeviceFluidTest, MapsByEveryMethodAsTheHostDoes)
     }
 }
 
+TEST_P(DeviceFluidTest, RefusesToReuseWeights)
+{
+    Case settings = CoupledScene::made();
+    settings.mapping.reuse_distance = 0.02;
+    try
+    {
+        CoupledScene const scene(GetParam(), 1, settings);
+        FAIL() << "a device keeps no weights";
+    }
+    catch (UserError const& error)
+    {
+        EXPECT_NE(std::string(error.what()).find("reuse_distance does not work"), std::string::npos) << error.what();
+    }
+}
+
 TEST_P(DeviceFluidTest, NamesTheParticleThatLeftTheMesh)
 {
     CoupledScene scene(GetParam(), 1);

@@ -150,8 +150,8 @@ TEST(GeometryCheck, FaceTooFarFromPlanarIsNamedWithItsWarp)
                 list.points[point(i, j, 1)].z() += (i + j) % 2 == 0 ? off : -off;
         return refusal(list.mesh());
     };
-    EXPECT_EQ(bent(0.29), "");
-    expect_words(bent(0.33), {"face ", "of cell ", "not planar", "off its plane by 0.33 ", "at most 0.3"});
+    EXPECT_EQ(bent(0.48), "");
+    expect_words(bent(0.52), {"face ", "of cell ", "not planar", "off its plane by 0.52 ", "at most 0.5"});
 }
 
 }  // namespace
