@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/Error.hpp"
 #include "engine/InletFlow.hpp"
 #include "exec/Reduce.hpp"
 

@@ -7,6 +7,7 @@
 
 #include "mesh/BoxGrid.hpp"
 #include "mesh/CellSide.hpp"
+#include "mesh/OneFace.hpp"
 #include "mesh/PolyMesh.hpp"
 
 namespace gimdem
@@ -86,8 +87,9 @@ struct CellFinder
     {
         CellWalker const walk{mesh};
         Location const here = walk(last < 0 ? grid.near(x) : last, x);
-        if (here.is_certain || CellSide{mesh}(here.cell, x) == Side::inside) return {here.cell, 0, -1, here.is_certain};
-        std::int32_t const cell = enclosing_cell(x);
+        if (here.is_certain) return here;
+        std::int32_t cell = near_one_face(here.cell, x);
+        if (cell < 0) cell = enclosing_cell(here.cell, x);
         if (cell >= 0) return {cell, 0, -1, false};
         if (here.face < 0 || last < 0) return here;
         Location const other = walk(grid.near(x), x);
@@ -95,9 +97,21 @@ struct CellFinder
     }
 
 private:
-    /// -1 outside of the mesh.
-    GIMDEM_HD std::int32_t enclosing_cell(Vec3 const& x) const
+    /// The cell, or the one across the only face that x is near; -1 where that is not enough to know.
+    GIMDEM_HD std::int32_t near_one_face(std::int32_t cell, Vec3 const& x) const
     {
+        OneFace const one{mesh};
+        OneFace::Result const result = one(cell, x);
+        if (result.answer == OneFace::Answer::inside) return cell;
+        if (result.answer == OneFace::Answer::unknown) return -1;
+        std::int32_t const beside = mesh.across(result.face, cell);
+        return beside >= 0 && one(beside, x).answer == OneFace::Answer::inside ? beside : -1;
+    }
+
+    /// -1 outside of the mesh. `likely` is looked at first.
+    GIMDEM_HD std::int32_t enclosing_cell(std::int32_t likely, Vec3 const& x) const
+    {
+        if (CellSide{mesh}(likely, x) == Side::inside) return likely;
         std::int64_t const bin = grid.bin(x);
         for (std::int32_t m = grid.offsets[bin]; m < grid.offsets[bin + 1]; ++m)
         {
