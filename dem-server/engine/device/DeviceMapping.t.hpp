@@ -3,16 +3,15 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "core/Error.hpp"
 #include "engine/device/DeviceMapping.hpp"
 #include "mapping/methods/DividedVolume.hpp"
 #include "mapping/methods/ExactOverlap.hpp"
-#include "mapping/methods/FaceSoftIntersection.hpp"
 #include "mapping/methods/GaussianKernel.hpp"
 #include "mapping/methods/GaussianMethod.hpp"
-#include "mapping/methods/ParticleCentre.hpp"
 #include "mapping/methods/PowerDiagram.hpp"
 
 namespace gimdem
@@ -24,24 +23,26 @@ void DeviceMapping<Device>::upload(Device& device, FluidScene const& scene, Mesh
 {
     mesh_ = mesh;
     boxes_ = boxes;
-    Method& method = scene.mapper.method();
     if (scene.mapper.prepare(particles) || layer_cells_.size() == 0) upload_rows(device, scene.mapper);
-    if (dynamic_cast<ParticleCentre*>(&method) != nullptr)
+    // By name: nvcc does not take all of the methods' headers.
+    Method& method = scene.mapper.method();
+    std::string const& name = scene.settings.mapping.method;
+    if (name == "pcm" || name == "diffusion")
         kind_ = Kind::own_cell;
-    else if (auto* const gaussian = dynamic_cast<GaussianMethod*>(&method))
-        kind_ = upload_gaussian(device, *gaussian, particles);
-    else if (auto const* const divided = dynamic_cast<DividedVolume*>(&method))
-        kind_ = Kind::points, points_.upload(device, divided->points());
-    else if (dynamic_cast<FaceSoftIntersection*>(&method) != nullptr)
+    else if (name == "gim" || name == "gim-fixed")
+        kind_ = upload_gaussian(device, static_cast<GaussianMethod&>(method), particles);
+    else if (name == "divided")
+        kind_ = Kind::points, points_.upload(device, static_cast<DividedVolume&>(method).points());
+    else if (name == "fbsi")
         kind_ = Kind::faces;
-    else if (auto const* const kernel = dynamic_cast<GaussianKernel*>(&method))
-        kind_ = Kind::kernel, radii_of_kernel_ = kernel->radii();
-    else if (auto const* const exact = dynamic_cast<ExactOverlap*>(&method))
-        kind_ = Kind::overlap, upload_facets(device, *exact);
-    else if (auto const* const diagram = dynamic_cast<PowerDiagram*>(&method))
-        kind_ = Kind::potentials, potentials_.upload(device, diagram->potentials());
+    else if (name == "kernel")
+        kind_ = Kind::kernel, radii_of_kernel_ = static_cast<GaussianKernel&>(method).radii();
+    else if (name == "exact")
+        kind_ = Kind::overlap, upload_facets(device, static_cast<ExactOverlap&>(method));
+    else if (name == "power-diagram")
+        kind_ = Kind::potentials, potentials_.upload(device, static_cast<PowerDiagram&>(method).potentials());
     else
-        throw UserError("mapping method \"" + scene.settings.mapping.method +
+        throw UserError("mapping method \"" + name +
                         "\" does not run on a GPU (it has no law in mapping/PairLaws.hpp); set another [mapping] "
                         "method, or run on the processor with --device cpu");
     device.wait();
