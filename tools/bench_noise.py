@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import csv
+import json
 import re
 import shutil
 import subprocess
@@ -36,8 +37,7 @@ def run(options: argparse.Namespace) -> int:
     grids = options.mesh.split(",") if options.mesh else GRIDS
     place = folder() / "noise"
     place.mkdir(exist_ok=True)
-    rows = [Row(grid, method, options.until, place)
-            for grid in grids for method in methods]
+    rows = [Row(grid, method, options.until, place) for grid in grids for method in methods]
     for row in rows:
         row.measure()
         write_table(rows, place / "noise.csv")
@@ -62,7 +62,10 @@ class Row:
         return self.place / f"{self.grid}-{self.method}-{self.until:g}s"
 
     def is_finished(self) -> bool:
-        return (self.folder / "summary.json").exists()
+        try:
+            return json.loads((self.folder / "run.json").read_text()).get("outcome") == "finished"
+        except (OSError, json.JSONDecodeError):
+            return False
 
     def measure(self) -> None:
         if not self.is_finished():
