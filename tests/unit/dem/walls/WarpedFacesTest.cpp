@@ -9,8 +9,8 @@
 
 #include "BoxMesh.hpp"
 #include "TestCase.hpp"
+#include "WallForce.hpp"
 #include "WallScene.hpp"
-#include "walls/WallContacts.hpp"
 
 namespace
 {
@@ -66,18 +66,6 @@ double distance_to_bottom(PolyMesh const& mesh, Vec3 const& x)
     return nearest;
 }
 
-/// Force of the walls on a sphere at rest; w: contacts.
-gimdem::Quad wall_force(gimdem::WallGeometry const& walls, Vec3 const& x)
-{
-    gimdem::Case const settings = bead_case();
-    gimdem::Materials const materials(settings);
-    auto particles = particles_of({{x, radius}});
-    gimdem::WallContacts contacts(serial, materials, 0, walls);
-    contacts.build(particles, 0.1 * radius, {});
-    contacts.add_forces(particles, 0);
-    return contacts.force_on(0);
-}
-
 TEST(WarpedFaces, AreFeltAtTheNearestPointOfTheirTriangles)
 {
     PolyMesh const mesh = saddle();
@@ -91,7 +79,7 @@ TEST(WarpedFaces, AreFeltAtTheNearestPointOfTheirTriangles)
         Vec3 const at = Vec3(x, y, 0.64 * x * y) + (radius - 0.002) * slope;
         double const expected = hertz_wall(radius, radius - distance_to_bottom(mesh, at));
 
-        auto const force = wall_force(walls, at);
+        auto const force = wall_force(walls, at, radius);
 
         // One smooth surface: one contact, also where two triangles are touched. Overlaps keep 13 digits less.
         ASSERT_EQ(force.w, 1) << at.transpose();
