@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "exec/Vector.hpp"
+#include "mesh/FaceFan.hpp"
 #include "mesh/PolyMesh.hpp"
 
 namespace gimdem
@@ -39,26 +40,17 @@ struct CellSide
     }
 
 private:
-    GIMDEM_HD Vec3 corner(std::int32_t k) const
-    {
-        double const* const x = mesh.points + 3 * std::int64_t{mesh.face_points[k]};
-        return {x[0], x[1], x[2]};
-    }
-
     /// Of a face seen from x; positive where its normal points away from x. [1]
     GIMDEM_HD double half_solid_angle(std::int32_t face, Vec3 const& x, bool& is_on) const
     {
-        std::int32_t const begin = mesh.face_offsets[face], end = mesh.face_offsets[face + 1];
-        Vec3 middle{0, 0, 0};
-        for (std::int32_t k = begin; k < end; ++k)
-            middle += corner(k);
-        Vec3 const m = middle / (end - begin) - x;
+        FaceFan const fan(mesh, face, x);
+        Vec3 const m = fan.middle;
         double const length_m = m.norm();
-        Vec3 a = corner(end - 1) - x;
+        Vec3 a = fan.corner(fan.end - 1);
         double length_a = a.norm(), angle = 0;
-        for (std::int32_t k = begin; k < end; ++k)
+        for (std::int32_t k = fan.begin; k < fan.end; ++k)
         {
-            Vec3 const b = corner(k) - x;
+            Vec3 const b = fan.corner(k);
             double const length_b = b.norm(), cube = length_a * length_b * length_m;
             // van Oosterom and Strackee's tangent of half the angle of a triangle.
             double const sine = a.dot(b.cross(m));

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "exec/Vector.hpp"
+#include "mesh/FaceFan.hpp"
 #include "mesh/PolyMesh.hpp"
 
 namespace gimdem
@@ -60,28 +61,19 @@ private:
         return found;
     }
 
-    GIMDEM_HD Vec3 corner(std::int32_t k) const
-    {
-        double const* const x = mesh.points + 3 * std::int64_t{mesh.face_points[k]};
-        return {x[0], x[1], x[2]};
-    }
-
     /// Parity of the triangles of a face below x along the normal out of the cell. Too close to an edge or a triangle
     /// it is unknown.
     GIMDEM_HD Answer crossings(std::int32_t face, Vec3 const& x, double side) const
     {
-        std::int32_t const begin = mesh.face_offsets[face], end = mesh.face_offsets[face + 1];
+        FaceFan const fan(mesh, face, x);
         Vec3 const n = side * mesh.face_normal[face].xyz();
         double const rounding = 1e-10 * mesh.face_centre[face].w;
-        Vec3 middle{0, 0, 0};
-        for (std::int32_t k = begin; k < end; ++k)
-            middle += corner(k);
-        Vec3 const m = middle / (end - begin) - x;
-        Vec3 a = corner(end - 1) - x;
+        Vec3 const m = fan.middle;
+        Vec3 a = fan.corner(fan.end - 1);
         bool crossed = false;
-        for (std::int32_t k = begin; k < end; ++k)
+        for (std::int32_t k = fan.begin; k < fan.end; ++k)
         {
-            Vec3 const b = corner(k) - x;
+            Vec3 const b = fan.corner(k);
             // Twice the areas of the three parts that x cuts the triangle into, seen along n.
             double const ab = n.dot(a.cross(b)), bm = n.dot(b.cross(m)), ma = n.dot(m.cross(a));
             double const whole = ab + bm + ma;
