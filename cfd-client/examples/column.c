@@ -2,7 +2,8 @@
 /*
  * The solver of column.cpp in C99, coupled with client.h.
  *
- * Usage: column-c <endpoint> <run folder>, which has constant/column; writes column.csv there.
+ * Usage: column-c <endpoint> <run folder>, which has constant/column; writes column.csv (a line a step) and
+ * profile.csv (a line a cell, at the end) there.
  */
 #include <math.h>
 #include <stdint.h>
@@ -177,6 +178,29 @@ static void differentiate(void)
     }
 }
 
+static FILE* open_table(const char* folder, const char* name)
+{
+    char file_name[1000];
+    FILE* file;
+    snprintf(file_name, sizeof file_name, "%s/%s", folder, name);
+    file = fopen(file_name, "w");
+    if (file == NULL) fprintf(stderr, "column-c: %s cannot be written\n", file_name);
+    return file;
+}
+
+/* The gas at the end of the run, a line a cell. */
+static int write_profile(const char* folder)
+{
+    FILE* file = open_table(folder, "profile.csv");
+    int k;
+    if (file == NULL) return 0;
+    fprintf(file, "height,void_fraction,velocity,pressure\n");
+    for (k = 0; k < column.n; ++k)
+        fprintf(file, "%.17g,%.17g,%.17g,%.17g\n", column.h * (k + 0.5), column.void_fraction[k],
+                column.velocity[3 * k + 2], column.pressure[k]);
+    return fclose(file) == 0;
+}
+
 /* The gas at the end of a step in which that solid holds and gas comes in at that velocity. */
 static void advance(const gimdem_solid_fields* solid, double inflow, double dt)
 {
@@ -210,8 +234,7 @@ static gimdem_status do_step(gimdem_client* client, long i, const struct setting
 {
     const gimdem_monitor monitors[] = {{"applied_force_x", "N", 0},
                                        {"applied_force_y", "N", 0},
-                                       {"applied_force_z", "N", column.applied_force},
-                                       {"pressure_drop", "Pa", column.pressure_drop}};
+                                       {"applied_force_z", "N", column.applied_force}};
     const double dt = settings->time_step;
     const double t = dt * (double)i;
     gimdem_step step = {sizeof step, 0, 0, 0};
@@ -290,7 +313,6 @@ static gimdem_status create(const char* endpoint, double timeout, gimdem_client*
 int main(int argc, char** argv)
 {
     struct settings settings = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-    char file_name[1000];
     gimdem_client* client;
     gimdem_status status;
     FILE* table;
@@ -300,13 +322,8 @@ int main(int argc, char** argv)
         return 2;
     }
     if (!read_settings(argv[2], &settings)) return 1;
-    snprintf(file_name, sizeof file_name, "%s/column.csv", argv[2]);
-    table = fopen(file_name, "w");
-    if (table == NULL)
-    {
-        fprintf(stderr, "column-c: %s cannot be written\n", file_name);
-        return 1;
-    }
+    table = open_table(argv[2], "column.csv");
+    if (table == NULL) return 1;
     column.n = (int)settings.cells;
     column.h = settings.height / column.n;
     column.area = settings.width * settings.depth;
@@ -318,5 +335,5 @@ int main(int argc, char** argv)
     if (status != GIMDEM_OK) fprintf(stderr, "column-c: %s\n", gimdem_client_last_error());
     gimdem_client_destroy(client);
     fclose(table);
-    return status == GIMDEM_OK ? 0 : 1;
+    return status == GIMDEM_OK && write_profile(argv[2]) ? 0 : 1;
 }

@@ -2,7 +2,8 @@
 /// A whole fluid solver in one file, coupled with Client.hpp: the gas in a column of cells, one above the other.
 /// column.c and column.py are the same solver in C and in Python.
 ///
-/// Usage: column-cpp <endpoint> <run folder>, which has constant/column; writes column.csv there.
+/// Usage: column-cpp <endpoint> <run folder>, which has constant/column; writes column.csv (a line a step) and
+/// profile.csv (a line a cell, at the end) there.
 ///
 /// Volume-averaged equations of a gas of constant density (theory.md, F.1 and F.2) in one dimension, where friction at
 /// the walls and inertia are neglected: with q the superficial velocity and S the force of the particles per volume,
@@ -160,6 +161,16 @@ struct Column
         return {velocity, velocity_gradient, pressure_gradient, void_fraction_gradient, pressure};
     }
 
+    void write_profile(std::string const& file_name) const
+    {
+        std::ofstream file(file_name);
+        file.precision(17);
+        file << "height,void_fraction,velocity,pressure\n";
+        for (std::size_t k = 0; k < n; ++k)
+            file << h * (static_cast<double>(k) + 0.5) << ',' << void_fraction[k] << ',' << velocity[3 * k + 2] << ','
+                 << pressure[k] << '\n';
+    }
+
     std::size_t n;
     double h;        ///< height of a cell [m]
     double area;     ///< of the column [m^2]
@@ -200,14 +211,15 @@ void run(std::string const& endpoint, std::string const& folder)
         SolidFields const& solid = client.begin_step({i, dt * static_cast<double>(i - 1), dt}, column.fields(),
                                                      {{"applied_force_x", 0, "N"},
                                                       {"applied_force_y", 0, "N"},
-                                                      {"applied_force_z", column.applied_force, "N"},
-                                                      {"pressure_drop", column.pressure_drop, "Pa"}});
+                                                      {"applied_force_z", column.applied_force, "N"}});
         double const t = dt * static_cast<double>(i);
         column.advance(solid, inflow_at(t), dt);
         client.end_step();
         table << t << ',' << inflow_at(t) << ',' << column.outflow << ',' << column.pressure_drop << ','
               << column.applied_force << '\n';
     }
+    table.close();
+    column.write_profile(folder + "/profile.csv");
     client.finish(client.stop_request() ? "stopped as asked" : "end time reached");
 }
 

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The solver of column.cpp in Python, coupled with coupling/python/gimdem_client.
 
-Usage: column.py <endpoint> <run folder>, which has constant/column; writes column.csv there.
+Usage: column.py <endpoint> <run folder>, which has constant/column; writes column.csv (a line a step) and
+profile.csv (a line a cell, at the end) there.
 """
 from __future__ import annotations
 
@@ -92,6 +93,13 @@ class Column:
         self.fields.velocity_gradient[:, 8] = (v[above] - v[below]) / distance
         self.fields.void_fraction_gradient[:, 2] = (self.void_fraction[above] - self.void_fraction[below]) / distance
 
+    def write_profile(self, file: Path) -> None:
+        lines = ["height,void_fraction,velocity,pressure"]
+        for k in range(self.n):
+            lines.append(f"{self.h * (k + 0.5)!r},{float(self.void_fraction[k])!r},"
+                         f"{float(self.fields.velocity[k, 2])!r},{float(self.fields.pressure[k])!r}")
+        file.write_text("\n".join(lines) + "\n")
+
 
 def run(endpoint: str, folder: Path) -> None:
     settings = read_settings(folder / "constant" / "column")
@@ -113,14 +121,14 @@ def run(endpoint: str, folder: Path) -> None:
             if client.stop_request:
                 break
             monitors = [Monitor("applied_force_x", 0.0, "N"), Monitor("applied_force_y", 0.0, "N"),
-                        Monitor("applied_force_z", column.applied_force, "N"),
-                        Monitor("pressure_drop", column.pressure_drop, "Pa")]
+                        Monitor("applied_force_z", column.applied_force, "N")]
             solid = client.begin_step(Step(i, dt * (i - 1), dt), column.fields, monitors)
             t = dt * i
             column.advance(solid, inflow_at(t), dt)
             client.end_step()
             print(f"{t!r},{inflow_at(t)!r},{column.outflow!r},{column.pressure_drop!r},{column.applied_force!r}",
                   file=table)
+        column.write_profile(folder / "profile.csv")
         client.finish("stopped as asked" if client.stop_request else "end time reached")
 
 
