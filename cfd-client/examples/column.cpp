@@ -189,8 +189,7 @@ void run(std::string const& endpoint, std::string const& folder)
     Mesh const mesh = make_mesh(n, settings.at("width"), settings.at("depth"), settings.at("height"));
     Column column(static_cast<std::size_t>(n), settings.at("height") / n, settings.at("width") * settings.at("depth"),
                   settings.at("density"));
-    auto const inflow_at = [&](double t)
-    { return settings.at("inflow") * std::fmin(1, t / settings.at("ramp_time")); };
+    auto const inflow_at = [&](double t) { return settings.at("inflow") * std::fmin(1, t / settings.at("ramp_time")); };
 
     ClientOptions options;
     options.endpoint = endpoint;
@@ -208,10 +207,9 @@ void run(std::string const& endpoint, std::string const& folder)
     long const steps = std::lround(welcome.end_time / dt);
     for (long i = 1; i <= steps && !client.stop_request(); ++i)
     {
-        SolidFields const& solid = client.begin_step({i, dt * static_cast<double>(i - 1), dt}, column.fields(),
-                                                     {{"applied_force_x", 0, "N"},
-                                                      {"applied_force_y", 0, "N"},
-                                                      {"applied_force_z", column.applied_force, "N"}});
+        SolidFields const& solid = client.begin_step(
+            {i, dt * static_cast<double>(i - 1), dt}, column.fields(),
+            {{"applied_force_x", 0, "N"}, {"applied_force_y", 0, "N"}, {"applied_force_z", column.applied_force, "N"}});
         double const t = dt * static_cast<double>(i);
         column.advance(solid, inflow_at(t), dt);
         client.end_step();

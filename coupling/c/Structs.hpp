@@ -41,8 +41,9 @@ T read(T const* given, char const* what)
     std::size_t const size = checked_size(require(given, what).struct_size, least, what);
     auto const* bytes = reinterpret_cast<char const*>(given);
     if (size > sizeof(T) && std::any_of(bytes + sizeof(T), bytes + size, [](char byte) { return byte != 0; }))
-        refuse(std::string(what) + " has members that this library does not know (the program was compiled for a newer "
-                                   "one); set them to 0, or link the newer library");
+        refuse(std::string(what) +
+               " has members that this library does not know (the program was compiled for a newer "
+               "one); set them to 0, or link the newer library");
     T known{};
     std::memcpy(&known, given, std::min(size, sizeof(T)));
     return known;

@@ -28,9 +28,12 @@ std::optional<Schedule> schedule_of(std::int32_t given)
 {
     switch (given)
     {
-        case GIMDEM_SCHEDULE_OF_SERVER: return std::nullopt;
-        case GIMDEM_SCHEDULE_SERIAL: return Schedule::serial;
-        case GIMDEM_SCHEDULE_OVERLAPPED: return Schedule::overlapped;
+        case GIMDEM_SCHEDULE_OF_SERVER:
+            return std::nullopt;
+        case GIMDEM_SCHEDULE_SERIAL:
+            return Schedule::serial;
+        case GIMDEM_SCHEDULE_OVERLAPPED:
+            return Schedule::overlapped;
         default:
             refuse("gimdem_client_options.schedule is " + std::to_string(given) +
                    " (it is one of GIMDEM_SCHEDULE_...); choose one");
@@ -41,12 +44,18 @@ PatchKind kind_of(gimdem_patch const& patch)
 {
     switch (patch.kind)
     {
-        case GIMDEM_PATCH_WALL: return PatchKind::wall;
-        case GIMDEM_PATCH_OPEN: return PatchKind::open;
-        case GIMDEM_PATCH_SYMMETRY: return PatchKind::symmetry;
-        case GIMDEM_PATCH_EMPTY: return PatchKind::empty;
-        case GIMDEM_PATCH_CYCLIC: return PatchKind::cyclic;
-        case GIMDEM_PATCH_PROCESSOR: return PatchKind::processor;
+        case GIMDEM_PATCH_WALL:
+            return PatchKind::wall;
+        case GIMDEM_PATCH_OPEN:
+            return PatchKind::open;
+        case GIMDEM_PATCH_SYMMETRY:
+            return PatchKind::symmetry;
+        case GIMDEM_PATCH_EMPTY:
+            return PatchKind::empty;
+        case GIMDEM_PATCH_CYCLIC:
+            return PatchKind::cyclic;
+        case GIMDEM_PATCH_PROCESSOR:
+            return PatchKind::processor;
         default:
             refuse("patch \"" + text(patch.name) + "\" has kind " + std::to_string(patch.kind) +
                    " (it is one of GIMDEM_PATCH_...); choose one");

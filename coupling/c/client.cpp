@@ -45,13 +45,20 @@ gimdem_status status_of(Fault fault)
 {
     switch (fault)
     {
-        case Fault::user: return GIMDEM_ERROR_USER;
-        case Fault::version: return GIMDEM_ERROR_VERSION;
-        case Fault::protocol: return GIMDEM_ERROR_PROTOCOL;
-        case Fault::mesh: return GIMDEM_ERROR_MESH;
-        case Fault::timeout: return GIMDEM_ERROR_TIMEOUT;
-        case Fault::peer: return GIMDEM_ERROR_PEER;
-        case Fault::endpoint: return GIMDEM_ERROR_ENDPOINT;
+        case Fault::user:
+            return GIMDEM_ERROR_USER;
+        case Fault::version:
+            return GIMDEM_ERROR_VERSION;
+        case Fault::protocol:
+            return GIMDEM_ERROR_PROTOCOL;
+        case Fault::mesh:
+            return GIMDEM_ERROR_MESH;
+        case Fault::timeout:
+            return GIMDEM_ERROR_TIMEOUT;
+        case Fault::peer:
+            return GIMDEM_ERROR_PEER;
+        case Fault::endpoint:
+            return GIMDEM_ERROR_ENDPOINT;
     }
     return GIMDEM_ERROR_INTERNAL;
 }
@@ -94,8 +101,7 @@ gimdem_welcome plain(Welcome const& welcome, std::vector<char const*> const& nee
     result.end_time = welcome.end_time;
     result.needs = needs.data();
     result.need_count = needs.size();
-    result.schedule =
-        welcome.schedule == Schedule::serial ? GIMDEM_SCHEDULE_SERIAL : GIMDEM_SCHEDULE_OVERLAPPED;
+    result.schedule = welcome.schedule == Schedule::serial ? GIMDEM_SCHEDULE_SERIAL : GIMDEM_SCHEDULE_OVERLAPPED;
     return result;
 }
 
@@ -184,8 +190,7 @@ gimdem_status gimdem_client_send_mesh(gimdem_client* client, gimdem_mesh const* 
 gimdem_status gimdem_client_begin_step(gimdem_client* client, gimdem_step const* step, gimdem_fluid_fields const* fluid,
                                        gimdem_monitor const* monitors, size_t monitor_count, gimdem_solid_fields* solid)
 {
-    return guarded([&]
-                   { begin_step(checked(client), step, fluid, c::monitors_of(monitors, monitor_count), solid); });
+    return guarded([&] { begin_step(checked(client), step, fluid, c::monitors_of(monitors, monitor_count), solid); });
 }
 
 gimdem_status gimdem_client_end_step(gimdem_client* client, gimdem_timings const* timings)

@@ -34,7 +34,8 @@ std::vector<Line> read_lines(std::string const& file_name)
 
 std::string in_one_line(std::string text)
 {
-    std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
     return text;
 }
 
@@ -44,9 +45,12 @@ char const* word_of(Verdict verdict)
 {
     switch (verdict)
     {
-        case Verdict::passed: return "ok";
-        case Verdict::failed: return "FAILED";
-        case Verdict::skipped: return "--";
+        case Verdict::passed:
+            return "ok";
+        case Verdict::failed:
+            return "FAILED";
+        case Verdict::skipped:
+            return "--";
     }
     return "";
 }

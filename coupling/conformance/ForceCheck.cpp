@@ -87,7 +87,8 @@ void ForceCheck::report(FindingsFile& findings) const
 {
     if (silent_)
     {
-        char const* const text = "not shown: report monitors applied_force_x, _y, _z, the sum of S V in the step before";
+        char const* const text =
+            "not shown: report monitors applied_force_x, _y, _z, the sum of S V in the step before";
         findings.skip("conservation", text);
         findings.skip("time level", text);
         return;
@@ -98,8 +99,7 @@ void ForceCheck::report(FindingsFile& findings) const
     std::snprintf(text, sizeof text, "%d of %d steps apply the force that was sent, to %.1e", known, compared_, worst_);
     findings.check("conservation", compared_ > 0 && known == compared_,
                    known == compared_ ? text : std::string(text) + "; " + first_wrong_);
-    std::snprintf(text, sizeof text, "%d of %d steps use the particles at %s", right_, known,
-                  serial ? "t + dt" : "t");
+    std::snprintf(text, sizeof text, "%d of %d steps use the particles at %s", right_, known, serial ? "t + dt" : "t");
     findings.check("time level", known > 0 && right_ == known, text);
 }
 

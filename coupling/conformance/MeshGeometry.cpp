@@ -45,7 +45,8 @@ std::vector<Vector> points_of(Mesh const& mesh, std::size_t face)
     std::vector<Vector> points;
     for (auto k = mesh.face_offsets[face]; k < mesh.face_offsets[face + 1]; ++k)
     {
-        double const* const x = &mesh.points[3 * static_cast<std::size_t>(mesh.face_points[static_cast<std::size_t>(k)])];
+        double const* const x =
+            &mesh.points[3 * static_cast<std::size_t>(mesh.face_points[static_cast<std::size_t>(k)])];
         points.push_back({x[0], x[1], x[2]});
     }
     return points;
@@ -118,9 +119,10 @@ std::string find_fault(MeshGeometry const& geometry)
     char text[200] = "";
     double const smallest = geometry.volumes[static_cast<std::size_t>(geometry.smallest_cell)];
     if (geometry.opening > largest_opening)
-        std::snprintf(text, sizeof text, "cell %d is open: its face areas sum up to %.3g of their magnitudes (0 if "
-                      "every normal leaves the owner and no face is missing)", geometry.most_open_cell,
-                      geometry.opening);
+        std::snprintf(text, sizeof text,
+                      "cell %d is open: its face areas sum up to %.3g of their magnitudes (0 if "
+                      "every normal leaves the owner and no face is missing)",
+                      geometry.most_open_cell, geometry.opening);
     else if (!(smallest > 0))
         std::snprintf(text, sizeof text, "cell %d has the volume %.3g m^3 (face normals must leave the owner)",
                       geometry.smallest_cell, smallest);

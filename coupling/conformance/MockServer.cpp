@@ -41,20 +41,23 @@ public:
     bool play()
     {
         ClientInfo const client = greet();
-        Mesh const mesh = take_mesh();
+        Mesh const mesh = server_.receive_mesh();
+        MeshGeometry const geometry = measure(mesh);
+        if (!judge(mesh, geometry)) return false;
         if (script_.misbehaviour == Misbehaviour::refuse_mesh)
         {
             findings_.tell("misbehaved", "");
             server_.reject_mesh(mock_reason);
             return true;
         }
-        KnownSolid solid(script_.law, measure(mesh).volumes);
+        KnownSolid solid(script_.law, geometry.volumes);
         ForceCheck force(solid, client.schedule.value_or(script_.schedule));
         stage_ = "fields";
         server_.accept_mesh(solid.after(0, {}));
         std::string const cells = text("%d cells", mesh.cell_count);
         bool const ended = answer_steps(solid, force);
-        findings_.pass("fields", text("%d fields of ", static_cast<int>(script_.needs.size())) + cells + " in each step");
+        findings_.pass("fields",
+                       text("%d fields of ", static_cast<int>(script_.needs.size())) + cells + " in each step");
         findings_.check("steps", steps_ > 0, text("%d, contiguous, to t = %.6g s", steps_, time_));
         if (script_.misbehaviour == Misbehaviour::none) report_end(force);
         return ended;
@@ -97,17 +100,17 @@ private:
         return client;
     }
 
-    Mesh take_mesh()
+    /// A mesh that a server of particles would refuse is refused here too.
+    bool judge(Mesh const& mesh, MeshGeometry const& geometry)
     {
-        Mesh mesh = server_.receive_mesh();
-        MeshGeometry const geometry = measure(mesh);
         std::string const fault = find_fault(geometry);
+        double const smallest = geometry.volumes[static_cast<std::size_t>(geometry.smallest_cell)];
         findings_.check("mesh", fault.empty(),
                         fault.empty() ? text("%d cells, closed to %.1e, the smallest of %.3g m^3", mesh.cell_count,
-                                             geometry.opening,
-                                             geometry.volumes[static_cast<std::size_t>(geometry.smallest_cell)])
+                                             geometry.opening, smallest)
                                       : fault);
-        return mesh;
+        if (!fault.empty()) server_.reject_mesh(fault);
+        return fault.empty();
     }
 
     /// True if the client said Goodbye.
@@ -124,9 +127,9 @@ private:
             server_.send_solid(solid.after(fluid->step.number, fluid->fields.velocity), {});
         }
         if (script_.misbehaviour == Misbehaviour::request_stop)
-            findings_.check("stop request", asked_to_stop_ && steps_after_stop_ <= 1,
-                            text("%d more steps after the request; \"%s\"", steps_after_stop_,
-                                 server_.goodbye_reason().c_str()));
+            findings_.check(
+                "stop request", asked_to_stop_ && steps_after_stop_ <= 1,
+                text("%d more steps after the request; \"%s\"", steps_after_stop_, server_.goodbye_reason().c_str()));
         return true;
     }
 
@@ -143,10 +146,17 @@ private:
             case Misbehaviour::delay:
                 std::this_thread::sleep_for(std::chrono::duration<double>(script_.delay));
                 return true;
-            case Misbehaviour::report_error: server_.abort(mock_reason); return false;
-            case Misbehaviour::die: ::raise(SIGKILL); return false;
-            case Misbehaviour::fall_silent: ::raise(SIGSTOP); return true;
-            default: return true;
+            case Misbehaviour::report_error:
+                server_.abort(mock_reason);
+                return false;
+            case Misbehaviour::die:
+                ::raise(SIGKILL);
+                return false;
+            case Misbehaviour::fall_silent:
+                ::raise(SIGSTOP);
+                return true;
+            default:
+                return true;
         }
     }
 
@@ -155,9 +165,9 @@ private:
         force.report(findings_);
         // A step that begins before the end may go beyond it.
         bool const right = time_ >= script_.end_time * (1 - 1e-9) && time_ - dt_ < script_.end_time;
-        findings_.check("end time", right,
-                        text("it ended at %.6g s of %.6g s: \"%s\"", time_, script_.end_time,
-                             server_.goodbye_reason().c_str()));
+        findings_.check(
+            "end time", right,
+            text("it ended at %.6g s of %.6g s: \"%s\"", time_, script_.end_time, server_.goodbye_reason().c_str()));
     }
 
     Script const& script_;

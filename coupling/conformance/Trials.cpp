@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "conformance/Trials.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace gimdem::conformance
 {
@@ -38,16 +40,20 @@ public:
 
     void run()
     {
-        whole_run("serial", Schedule::serial);
-        whole_run("overlapped", Schedule::overlapped);
-        stop_request();
-        refusal("wrong version", Misbehaviour::wrong_version);
-        refusal("refused mesh", Misbehaviour::refuse_mesh);
-        refusal("truncated field", Misbehaviour::truncate);
-        refusal("error of server", Misbehaviour::report_error);
-        refusal("lost server", Misbehaviour::die);
-        slow_server();
-        silent_server();
+        using Trial = std::pair<char const*, std::function<void(std::string const&)>>;
+        Trial const all[] = {
+            {"serial", [this](auto const& name) { whole_run(name, Schedule::serial); }},
+            {"overlapped", [this](auto const& name) { whole_run(name, Schedule::overlapped); }},
+            {"stop request", [this](auto const& name) { stop_request(name); }},
+            {"wrong version", [this](auto const& name) { refusal(name, Misbehaviour::wrong_version); }},
+            {"refused mesh", [this](auto const& name) { refusal(name, Misbehaviour::refuse_mesh); }},
+            {"truncated field", [this](auto const& name) { refusal(name, Misbehaviour::truncate); }},
+            {"error of server", [this](auto const& name) { refusal(name, Misbehaviour::report_error); }},
+            {"lost server", [this](auto const& name) { refusal(name, Misbehaviour::die); }},
+            {"slow server", [this](auto const& name) { slow_server(name); }},
+            {"silent server", [this](auto const& name) { silent_server(name); }}};
+        for (auto const& [name, trial] : all)
+            if (options_.only.empty() || options_.only == name) trial(name);
     }
 
 private:
@@ -59,11 +65,10 @@ private:
         return result;
     }
 
-    TrialResult try_out(Script const& script, std::string const& name, double extra = 0)
+    TrialResult try_out(Script const& script, double extra = 0)
     {
         TrialResult result = run_trial(options_, script, std::to_string(++count_), extra);
         if (result.timeout) timeout_ = result.timeout;
-        static_cast<void>(name);
         return result;
     }
 
@@ -77,7 +82,7 @@ private:
     {
         Script plain = script(Misbehaviour::none);
         plain.schedule = schedule;
-        TrialResult const result = try_out(plain, name);
+        TrialResult const result = try_out(plain);
         if (schedule == Schedule::overlapped && result.insists_on_serial)
             return tell_({name, Verdict::skipped, "not tried: the client insists on the serial schedule"});
         for (Finding finding : result.findings)
@@ -88,12 +93,13 @@ private:
             tell_(finding);
         }
         bool const good = result.exit_code == 0;
-        tell(name + ": exit code", good, good ? "0" : code_text(result) + "; its last words: " + last_line(result.output));
+        tell(name + ": exit code", good,
+             good ? "0" : code_text(result) + "; its last words: " + last_line(result.output));
     }
 
-    void stop_request()
+    void stop_request(std::string const& name)
     {
-        TrialResult const result = try_out(script(Misbehaviour::request_stop), "stop request", options_.patience);
+        TrialResult const result = try_out(script(Misbehaviour::request_stop), options_.limit);
         std::string text = code_text(result);
         bool good = result.exit_code == 0;
         bool was_asked = false;
@@ -104,13 +110,13 @@ private:
             good = good && finding.verdict == Verdict::passed;
             text += "; " + finding.text;
         }
-        tell("stop request", good && was_asked, text);
+        tell(name, good && was_asked, text);
     }
 
     /// The client has to end by itself, in time, with an exit code that is not 0.
     void refusal(std::string const& name, Misbehaviour misbehaviour)
     {
-        judge_refusal(name, try_out(script(misbehaviour), name));
+        judge_refusal(name, try_out(script(misbehaviour)));
     }
 
     void judge_refusal(std::string const& name, TrialResult const& result) const
@@ -118,26 +124,31 @@ private:
         bool const good = result.exit_code && *result.exit_code > 0 && *result.exit_code < 127;
         std::string text = code_text(result) + " after " + seconds_text(result.late);
         text += good ? ": " + last_line(result.output) : " (it has to end by itself, with a code that is not 0)";
-        tell(name, good, text);
+        auto const fault = std::find_if(result.findings.begin(), result.findings.end(),
+                                        [](Finding const& finding) { return finding.verdict == Verdict::failed; });
+        if (fault != result.findings.end()) text = fault->text + "; " + text;
+        tell(name, good && fault == result.findings.end(), text);
     }
 
-    bool knows_short_timeout(std::string const& name) const
+    bool knows_short_timeout(std::string const& name)
     {
+        if (!timeout_) try_out(script(Misbehaviour::wrong_version));  // its Hello tells
         if (timeout_ && *timeout_ <= longest_timeout) return true;
-        tell_({name, Verdict::skipped, "not tried: give the client a time-out of " + seconds_text(longest_timeout) +
-                                           " or less" + (timeout_ ? " (it has " + seconds_text(*timeout_) + ")" : "")});
+        tell_({name, Verdict::skipped,
+               "not tried: give the client a time-out of " + seconds_text(longest_timeout) + " or less" +
+                   (timeout_ ? " (it has " + seconds_text(*timeout_) + ")" : "")});
         return false;
     }
 
     /// An answer that takes longer than the time-outs of both sides is no fault: heartbeats go on.
-    void slow_server()
+    void slow_server(std::string const& name)
     {
-        if (!knows_short_timeout("slow server")) return;
+        if (!knows_short_timeout(name)) return;
         Script late = script_;
         late.misbehaviour = Misbehaviour::delay;
-        late.timeout = 1;
+        late.timeout = 2;
         late.delay = 1.3 * std::max(*timeout_, late.timeout);
-        TrialResult const result = try_out(late, "slow server", late.delay + options_.limit);
+        TrialResult const result = try_out(late, late.delay + options_.limit);
         bool good = result.exit_code == 0;
         std::string text = "answer after " + seconds_text(late.delay) + ", " + code_text(result);
         for (Finding const& finding : result.findings)
@@ -146,13 +157,13 @@ private:
                 good = false;
                 text += "; " + finding.text;
             }
-        tell("slow server", good, good ? text : text + "; its last words: " + last_line(result.output));
+        tell(name, good, good ? text : text + "; its last words: " + last_line(result.output));
     }
 
-    void silent_server()
+    void silent_server(std::string const& name)
     {
-        if (!knows_short_timeout("silent server")) return;
-        judge_refusal("silent server", try_out(script(Misbehaviour::fall_silent), "silent server", *timeout_));
+        if (!knows_short_timeout(name)) return;
+        judge_refusal(name, try_out(script(Misbehaviour::fall_silent), *timeout_));
     }
 
     TrialOptions const& options_;

@@ -56,6 +56,8 @@ int run(TrialOptions options, Script const& script)
                });
     std::printf("\n%d ok, %d failed, %d not shown\n", counts[Verdict::passed], counts[Verdict::failed],
                 counts[Verdict::skipped]);
+    if (counts.empty())
+        throw std::runtime_error("there is no trial \"" + options.only + "\"; leave out --only to see all");
     return counts[Verdict::failed] == 0 ? 0 : 1;
 }
 
@@ -72,12 +74,15 @@ int main(int argc, char** argv)
 {
     TrialOptions options;
     Script script;
-    CLI::App app("gimdem-conformance: starts a client against a mock server, again and again, and tells what it proved");
+    CLI::App app(
+        "gimdem-conformance: starts a client against a mock server, again and again, and tells what it proved");
     app.footer("Example: gimdem-conformance -- ./my-client {endpoint} run-folder");
-    app.add_option("--until", script.end_time, "end time of a session; a few steps of the client are enough (0.01) [s]");
+    app.add_option("--until", script.end_time,
+                   "end time of a session; a few steps of the client are enough (0.01) [s]");
     app.add_option("--axis", script.law.axis, "direction of the force on the fluid (0 0 1)");
     app.add_option("--momentum", script.law.momentum, "size of that force per volume (2) [N/m^3]");
     app.add_option("--drag", script.law.drag, "drag coefficient (100) [kg/(m^3 s)]");
+    app.add_option("--only", options.only, "run this trial alone, e.g. \"lost server\"");
     app.add_flag("--tcp", options.tcp, "meet at tcp://127.0.0.1 instead of an ipc socket");
     app.add_option("--patience", options.patience, "for the client to end once it has to (10) [s]");
     app.add_option("--limit", options.limit, "of one session (120) [s]");
@@ -87,8 +92,9 @@ int main(int argc, char** argv)
     {
         app.parse(argc, argv);
         if (!has_place_for_endpoint(options.command))
-            throw CLI::ValidationError("client", "no argument has {endpoint} in it (the client must learn where the "
-                                                 "server is); write it where the endpoint belongs");
+            throw CLI::ValidationError("client",
+                                       "no argument has {endpoint} in it (the client must learn where the "
+                                       "server is); write it where the endpoint belongs");
     }
     catch (CLI::ParseError const& error)
     {

@@ -17,16 +17,15 @@ int main(int argc, char** argv)
     using namespace gimdem::conformance;
     using gimdem::coupling::Schedule;
     std::map<std::string, Schedule> const schedules{{"serial", Schedule::serial}, {"overlapped", Schedule::overlapped}};
-    std::map<std::string, Misbehaviour> const misbehaviours{
-        {"none", Misbehaviour::none},
-        {"refuse-mesh", Misbehaviour::refuse_mesh},
-        {"request-stop", Misbehaviour::request_stop},
-        {"delay", Misbehaviour::delay},
-        {"report-error", Misbehaviour::report_error},
-        {"die", Misbehaviour::die},
-        {"fall-silent", Misbehaviour::fall_silent},
-        {"wrong-version", Misbehaviour::wrong_version},
-        {"truncate", Misbehaviour::truncate}};
+    std::map<std::string, Misbehaviour> const misbehaviours{{"none", Misbehaviour::none},
+                                                            {"refuse-mesh", Misbehaviour::refuse_mesh},
+                                                            {"request-stop", Misbehaviour::request_stop},
+                                                            {"delay", Misbehaviour::delay},
+                                                            {"report-error", Misbehaviour::report_error},
+                                                            {"die", Misbehaviour::die},
+                                                            {"fall-silent", Misbehaviour::fall_silent},
+                                                            {"wrong-version", Misbehaviour::wrong_version},
+                                                            {"truncate", Misbehaviour::truncate}};
 
     Script script;
     CLI::App app("gimdem-mock-server: a server without particles, to try a client with");
