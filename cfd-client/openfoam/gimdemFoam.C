@@ -121,7 +121,19 @@ static void simulate
         clockTime clock;
         bool writeDue = false;
         bool repeats = false;
-        p.storePrevIter();
+        const volScalarField p0
+        (
+            IOobject
+            (
+                "p0",
+                runTime.timeName(),
+                mesh,
+                IOobject::NO_READ,
+                IOobject::NO_WRITE,
+                false
+            ),
+            p
+        );
 
         do
         {

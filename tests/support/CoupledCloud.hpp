@@ -19,11 +19,11 @@ struct CoupledCloud
 {
     struct Properties
     {
-        double radius = 5e-4;           ///< [m]
-        double particle_density = 1000; ///< [kg/m^3]
-        double fluid_density = 1;       ///< [kg/m^3]
-        double viscosity = 1e-2;        ///< [Pa s]
-        double gravity = 0;             ///< along x [m/s^2]
+        double radius = 5e-4;            ///< [m]
+        double particle_density = 1000;  ///< [kg/m^3]
+        double fluid_density = 1;        ///< [kg/m^3]
+        double viscosity = 1e-2;         ///< [Pa s]
+        double gravity = 0;              ///< along x [m/s^2]
         bool drag = true;
         bool pressure_gradient = false;
     };

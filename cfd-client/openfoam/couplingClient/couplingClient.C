@@ -11,6 +11,7 @@
 #include "couplingClient.H"
 #include "polyMeshArrays.H"
 #include "fvc.H"
+#include "StringStream.H"
 
 using namespace gimdem::coupling;
 

@@ -204,8 +204,8 @@ TEST_F(LightParticles, RiseAsTheImplicitSolutionDoesWhenIterated)
         double const u = cloud.velocity();
         int passes = 0;
         fluid = iterate(
-            cloud, {n, (n - 1) * dt, dt}, fluid, [&](CoupledCloud const&, Fluid const& seen) { return answer(seen, u); },
-            strict, passes);
+            cloud, {n, (n - 1) * dt, dt}, fluid,
+            [&](CoupledCloud const&, Fluid const& seen) { return answer(seen, u); }, strict, passes);
         most_passes = std::max(most_passes, passes);
 
         double end = 0;

@@ -47,7 +47,8 @@ public:
         weight_.assign(judged, 0);
     }
 
-    /// What came of the guess. Returns the largest |F(x) - x| of a judged block over the larger of |F(x)| and |x| (C.18).
+    /// What came of the guess. Returns the largest |F(x) - x| of a judged block over the larger of |F(x)| and |x|
+    /// (C.18).
     double take(Blocks const& image)
     {
         before_.swap(residual_);

@@ -82,8 +82,7 @@ TEST_P(IteratedRun, RepeatsStepsUntilTheClientEndsThem)
         for (int pass = 1; pass < passes_of(n); ++pass)
         {
             expected.push_back({n, pass, 10.0 * n + pass, 0.5 / pass});
-            SolidFields const& solid =
-                client.iterate_step(FluidArrays(cells, 10.0 * n + pass).view(), 0.5 / pass);
+            SolidFields const& solid = client.iterate_step(FluidArrays(cells, 10.0 * n + pass).view(), 0.5 / pass);
             EXPECT_EQ(to_vector(solid.drag_momentum), SolidArrays(cells, 100 * n + pass).drag_momentum);
         }
         residual = 1e-3 * n;
