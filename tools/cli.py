@@ -13,6 +13,7 @@ import bench_dem
 import bench_gim
 import bench_mapping
 import bench_noise
+import bench_overlap
 import meshes
 import run_case
 from build import build
@@ -38,10 +39,11 @@ def parser() -> argparse.ArgumentParser:
     add("test", run_tests, f"build everything and run the tests, except {SKIPPED_LABELS}; further options go to ctest")
     bench = add("bench", run_benchmarks, "run the benchmarks")
     bench.add_argument("name", nargs="?",
-                       help="dem, mapping, noise, gim-figures (the figures of the method's paper), or a part of a program's name")
+                       help="dem, mapping, noise, overlap, gim-figures (the figures of the method's paper), or a part of a program's name")
     bench_dem.add_options(bench)
     bench_mapping.add_options(bench)
     bench_noise.add_options(bench)
+    bench_overlap.add_options(bench)
     figures = add("figures", show_figures, "print the figures of a run, or of two side by side")
     figures.add_argument("run", metavar="RUN_DIR", type=Path)
     figures.add_argument("compare", metavar="RUN_DIR2", type=Path, nargs="?")
@@ -75,6 +77,8 @@ def run_benchmarks(options: argparse.Namespace) -> int:
         return bench_mapping.run(options, parts_of(options, bench_mapping.PARTS))
     if options.name == "noise":
         return bench_noise.run(options)
+    if options.name == "overlap":
+        return bench_overlap.run(options)
     if options.name == "gim-figures":
         return bench_gim.run(options)
     found = {path.name: path for path in sorted((build_dir() / "bin").glob("*benchmark*"))}

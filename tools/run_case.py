@@ -28,7 +28,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("case", metavar="CASE_DIR", help="a folder with a case.toml")
     parser.add_argument("--client", metavar="NAME", help="who solves the fluid (default: as case.toml says): "
                         f"{', '.join(CLIENTS)}, or the path of a program of yours (docs/write-a-client.md)")
-    parser.add_argument("--schedule", choices=("serial", "overlapped"), help="who waits for whom (case.toml)")
+    parser.add_argument("--schedule", choices=("serial", "overlapped", "iterated"),
+                        help="who waits for whom (case.toml)")
     parser.add_argument("--device", choices=("auto", "cuda", "cpu"), default="auto",
                         help="where the particles are computed")
     parser.add_argument("--precision", choices=("double", "mixed"), help="of the contact laws (case.toml)")

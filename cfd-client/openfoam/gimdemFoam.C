@@ -93,6 +93,7 @@ static void simulate
     runTime.setEndTime(particles.endTime());
     particles.sendMesh(mesh);
     particles.getSolid(alpha, K, M);
+    const label fluidSteps = particles.fluidSteps();
 
     #include "initialFlux.H"
     #include "setFluid.H"
@@ -103,7 +104,9 @@ static void simulate
 
     while (runTime.run() && !particles.stopRequested())
     {
-        const scalar deltaT = runTime.deltaTValue();
+        // A coupling step has fluidSteps equal steps of the fluid. In schedule
+        // iterated it has one, which is repeated
+        const scalar deltaT = fluidSteps*runTime.deltaTValue();
         try
         {
             particles.beginStep(runTime.value(), deltaT);
@@ -116,32 +119,68 @@ static void simulate
         }
 
         clockTime clock;
-        ++runTime;
-
-        particles.getSolid(alpha, K, M);
-        #include "updateSolid.H"
-
-        while (pimple.loop())
-        {
-            #include "UEqn.H"
-
-            while (pimple.correct())
-            {
-                #include "pEqn.H"
-            }
-        }
-
-        requireConvergent
+        bool writeDue = false;
+        bool repeats = false;
+        const volScalarField p0
         (
-            runTime,
-            "velocity in m/s",
-            Foam::sqrt(gMax(magSqr(U.primitiveField()))),
-            pimple.dict().getOrDefault<scalar>("maxVelocity", 340)
+            IOobject
+            (
+                "p0",
+                runTime.timeName(),
+                mesh,
+                IOobject::NO_READ,
+                IOobject::NO_WRITE,
+                false
+            ),
+            p
         );
-        #include "setFluid.H"
+
+        do
+        {
+            for (label stepsLeft = fluidSteps; stepsLeft > 0; --stepsLeft)
+            {
+                if (repeats)
+                {
+                    #include "restoreFluid.H"
+                }
+                else
+                {
+                    ++runTime;
+                    writeDue = writeDue || runTime.writeTime();
+                }
+
+                particles.getSolid(alpha, K, M, stepsLeft);
+                #include "updateSolid.H"
+
+                while (pimple.loop())
+                {
+                    #include "UEqn.H"
+
+                    while (pimple.correct())
+                    {
+                        #include "pEqn.H"
+                    }
+                }
+
+                requireConvergent
+                (
+                    runTime,
+                    "velocity in m/s",
+                    Foam::sqrt(gMax(magSqr(U.primitiveField()))),
+                    pimple.dict().getOrDefault<scalar>("maxVelocity", 340)
+                );
+            }
+            #include "setFluid.H"
+
+            repeats = particles.iterate();
+        } while (repeats);
 
         const scalar compute = clock.timeIncrement();
-        runTime.write();
+        if (writeDue)
+        {
+            // Only here do both solvers stand at the same time
+            runTime.writeNow();
+        }
         particles.endStep(compute, clock.timeIncrement());
 
         #include "reportStep.H"

@@ -21,6 +21,7 @@ struct Hello
     std::vector<std::string> wants;
     std::optional<Schedule> schedule;
     double timeout = 0;  ///< of the client [s]
+    bool iterates = false;
 };
 
 Message pack(Hello const& hello);

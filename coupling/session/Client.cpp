@@ -33,12 +33,15 @@ struct Client::Impl
     void connect(FluidProperties const& fluid);
     void send_mesh(MeshView const& mesh);
     void begin_step(Step const& step, FluidFields const& fluid, std::vector<Monitor> const& monitors);
-    void end_step(Timings const& timings);
+    void iterate_step(FluidFields const& estimate, double residual);
+    void end_step(Timings const& timings, double residual);
+    void send_fluid(Event call, FluidState const& fluid, Time entered);
+    Event begin_event() const;
     void finish(std::string const& reason);
 
     session::Letter receive(std::string const& awaited);
     Time take_solid();
-    bool is_serial() const { return welcome.schedule == Schedule::serial; }
+    bool overlaps() const { return welcome.schedule == Schedule::overlapped; }
 
     /// Runs a call; a fault that leaves the session alive is remembered, in case the program ends because of it.
     template <class Body>
@@ -62,8 +65,10 @@ struct Client::Impl
     session::SharedFields shared;    ///< outlives the messages that lie in it
     message::Message solid_message;  ///< holds the bytes that the spans of solid show
     message::SolidState solid;
-    Timings previous;  ///< of the last fluid step
-    std::int64_t step = 0;
+    Timings previous;              ///< of the last fluid step
+    double previous_residual = 0;  ///< of the last pass of the step before
+    Step step;
+    int pass = 0;  ///< of this step
     session::ExchangeClock clock;
     session::Session session;
 };
@@ -85,8 +90,8 @@ void Client::Impl::connect(FluidProperties const& fluid)
     session.open(transport::Socket::connect(options.endpoint));
     session.advance(Event::connect);
     shared.want(options.shared_memory && session.is_ipc());
-    message::Message hello =
-        message::pack(message::Hello{options.name, fluid, options.wants, options.schedule, options.timeout});
+    message::Message hello = message::pack(
+        message::Hello{options.name, fluid, options.wants, options.schedule, options.timeout, options.iterates});
     shared.offer(hello);
     session.send(std::move(hello));
 
@@ -121,36 +126,61 @@ void Client::Impl::send_mesh(MeshView const& mesh)
 
 void Client::Impl::begin_step(Step const& next, FluidFields const& fluid, std::vector<Monitor> const& monitors)
 {
-    Time const entered = Clock::now();
-    Event const call = is_serial() ? Event::begin_serial_step : Event::begin_overlapped_step;
-    session.require(call);
-
     ExchangeTimes const& so_far = clock.times();
-    message::Message message =
-        message::lay_out(FluidState{next, fluid, monitors, previous, so_far.exchange, so_far.waiting}, terms);
+    send_fluid(begin_event(), {next, fluid, monitors, previous, so_far.exchange, so_far.waiting, 0, previous_residual},
+               Clock::now());
+}
+
+void Client::Impl::iterate_step(FluidFields const& estimate, double residual)
+{
+    ExchangeTimes const& so_far = clock.times();
+    send_fluid(Event::iterate_step, {step, estimate, {}, previous, so_far.exchange, so_far.waiting, pass + 1, residual},
+               Clock::now());
+}
+
+Event Client::Impl::begin_event() const
+{
+    switch (welcome.schedule)
+    {
+        case Schedule::overlapped:
+            return Event::begin_overlapped_step;
+        case Schedule::iterated:
+            return Event::begin_iterated_step;
+        default:
+            return Event::begin_serial_step;
+    }
+}
+
+/// Sends a fluid and, unless both compute at once, takes its answer.
+void Client::Impl::send_fluid(Event call, FluidState const& fluid, Time entered)
+{
+    session.require(call);
+    message::Message message = message::lay_out(fluid, terms);
     shared.confirm(message);
     session.prepare(message);
     session.look_for_trouble("the fluid of its program");
-    step = next.number;
-    session.set_step(step);
+    step = fluid.step;
+    pass = fluid.pass;
+    session.set_step(step.number);
     session.advance(call);
     session.send(std::move(message));
     terms.memory.message_sent();
     clock.sent(entered, Clock::now());
 
-    if (!is_serial()) return;
+    if (overlaps()) return;
     take_solid();
     clock.answered_serial(Clock::now(), solid.busy_time);
 }
 
-void Client::Impl::end_step(Timings const& timings)
+void Client::Impl::end_step(Timings const& timings, double residual)
 {
     Time const entered = Clock::now();
     session.require(Event::end_step);
     session.advance(Event::end_step);
     previous = timings;
+    previous_residual = residual;
 
-    if (is_serial()) return;
+    if (!overlaps()) return;
     Time const arrival = take_solid();
     clock.answered_overlapped(entered, arrival, Clock::now(), solid.busy_time);
 }
@@ -172,10 +202,13 @@ session::Letter Client::Impl::receive(std::string const& awaited)
 /// Receives the solid of the current step; returns when it arrived.
 Time Client::Impl::take_solid()
 {
-    session::Letter letter = receive("SolidState of step " + std::to_string(step));
-    if (letter.message.envelope.step() != step)
+    std::string const awaited =
+        "step " + std::to_string(step.number) + (pass > 0 ? ", pass " + std::to_string(pass) : "");
+    session::Letter letter = receive("SolidState of " + awaited);
+    v1::Envelope const& envelope = letter.message.envelope;
+    if (envelope.step() != step.number || envelope.iteration() != pass)
         session.fail(Fault::protocol, message::describe(letter.message) + " from " + session.peer_name() +
-                                          " is out of order (it should answer step " + std::to_string(step) +
+                                          " is out of order (it should answer " + awaited +
                                           "); the two programs do not fit together, see docs/protocol.md");
     session.read([&] { shared.attach(letter.message); });
     solid = session.read([&] { return message::unpack_solid_state(letter.message, terms); });
@@ -205,9 +238,15 @@ SolidFields const& Client::begin_step(Step const& step, FluidFields const& fluid
     return impl_->solid.fields;
 }
 
-void Client::end_step(Timings const& timings)
+SolidFields const& Client::iterate_step(FluidFields const& estimate, double residual)
 {
-    impl_->guard([&] { impl_->end_step(timings); });
+    impl_->guard([&] { impl_->iterate_step(estimate, residual); });
+    return impl_->solid.fields;
+}
+
+void Client::end_step(Timings const& timings, double residual)
+{
+    impl_->guard([&] { impl_->end_step(timings, residual); });
 }
 
 void Client::finish(std::string const& reason)

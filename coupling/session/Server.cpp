@@ -42,7 +42,7 @@ struct Server::Impl
 
     session::Letter receive(std::string const& awaited);
     bool said_goodbye(session::Letter const& letter);
-    void check_order(Step const& step);
+    void check_order(FluidState const& fluid);
     std::optional<std::string> stop_reason();
 
     /// Runs a call; a fault that leaves the session alive is remembered, in case the program ends because of it.
@@ -65,6 +65,8 @@ struct Server::Impl
     session::SharedFields shared;    ///< outlives the messages that lie in it
     message::Message fluid_message;  ///< holds the bytes that the spans of the last FluidState show
     session::StepOrder order;
+    bool iterates = false;  ///< the schedule iterated is in force
+    int pass = 0;           ///< of the fluid that is being answered
     std::string goodbye_reason;
     double busy_before = 0;  ///< the last fluid lay here unread for so long [s]
     Time handed_out;         ///< when receive_fluid() returned
@@ -99,13 +101,19 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
     session.set_peer_name(hello.name);
     session.choose_session_number();
     terms.solid = message::choose_solid_fields(hello.wants, Fault::protocol);
+    Schedule const schedule = hello.schedule.value_or(offered.schedule);
+    iterates = schedule == Schedule::iterated;
+    if (iterates && !hello.iterates)
+        session.fail(Fault::user, "the schedule is iterated, and " + session.peer_name() +
+                                      " cannot repeat a step (it does not say so in Hello); choose schedule serial or "
+                                      "overlapped, or another client");
 
-    message::Message welcome = message::pack(Welcome{
-        options.name, offered.title, hello.schedule.value_or(offered.schedule), offered.end_time, offered.needs});
+    message::Message welcome = message::pack(Welcome{options.name, offered.title, schedule, offered.end_time,
+                                                     offered.needs, offered.fluid_steps, offered.iteration});
     shared.offer(welcome);
     shared.agree(letter.message);
     session.send(std::move(welcome));
-    return {hello.name, hello.fluid, hello.wants, hello.schedule};
+    return {hello.name, hello.fluid, hello.wants, hello.schedule, hello.iterates};
 }
 
 Mesh Server::Impl::receive_mesh()
@@ -153,7 +161,8 @@ std::optional<FluidState> Server::Impl::receive_fluid()
     session.set_step(letter.message.envelope.step());
     session.read([&] { shared.attach(letter.message); });
     FluidState fluid = session.read([&] { return message::unpack_fluid_state(letter.message, terms); });
-    check_order(fluid.step);
+    check_order(fluid);
+    pass = fluid.pass;
     if (auto outbox = shared.use_if_confirmed(letter.message, terms.memory)) session.use(std::move(outbox));
     fluid_message = std::move(letter.message);
     busy_before = std::max(0.0, seconds_between(letter.arrival, entered));
@@ -166,6 +175,7 @@ void Server::Impl::send_solid(SolidFields const& fields, Timings const& timings)
     double const busy = busy_before + seconds_between(handed_out, Clock::now());
     session.require(Event::send_solid);
     message::Message solid = message::lay_out(message::SolidState{fields, timings, busy, stop_reason()}, terms);
+    solid.envelope.set_iteration(pass);
     session.prepare(solid);
     session.look_for_trouble("the solid of its program");
     session.advance(Event::send_solid);
@@ -197,12 +207,18 @@ bool Server::Impl::said_goodbye(session::Letter const& letter)
     return true;
 }
 
-void Server::Impl::check_order(Step const& step)
+void Server::Impl::check_order(FluidState const& fluid)
 {
-    if (auto const fault = order.find_fault(step))
+    bool const repeats = fluid.pass > 0;
+    auto fault = repeats ? order.find_fault_of_repeat(fluid.step, fluid.pass) : order.find_fault(fluid.step);
+    if (repeats && !iterates) fault = "it repeats a step, and the schedule is not iterated";
+    if (fault)
         session.fail(Fault::protocol, "FluidState from " + session.peer_name() + " is out of order: " + *fault +
                                           "; check how the client counts its steps and its time");
-    order.accept(step);
+    if (repeats)
+        order.accept_repeat(fluid.step, fluid.pass);
+    else
+        order.accept(fluid.step);
 }
 
 Server::Server(ServerOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}

@@ -32,8 +32,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
     app.add_option("--run", options.run_folder, "folder for the results");
     app.add_flag("--describe", options.describe, "check the case file, print what it says as JSON, and stop");
     app.add_option("--endpoint", options.endpoint, "ipc:///path/socket or tcp://127.0.0.1:port");
-    app.add_option("--schedule", options.schedule, "serial or overlapped")
-        ->check(CLI::IsMember({"serial", "overlapped"}));
+    app.add_option("--schedule", options.schedule, "serial, overlapped or iterated")
+        ->check(CLI::IsMember({"serial", "overlapped", "iterated"}));
     app.add_option("--until", options.until, "simulated time [s]")->check(CLI::PositiveNumber);
     app.add_option("--threads", options.threads, "threads for the particles, 0: all cores")
         ->check(CLI::NonNegativeNumber);

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <utility>
 
+#include "app/CouplingLog.hpp"
+#include "app/LogParts.hpp"
 #include "app/RunLog.hpp"
 #include "core/Error.hpp"
 #include "engine/CellSizeCheck.hpp"
@@ -42,13 +45,24 @@ std::vector<std::string> needed_fields(Case const& settings)
     return needs;
 }
 
+coupling::Schedule schedule_named(std::string const& name)
+{
+    if (name == "overlapped") return coupling::Schedule::overlapped;
+    return name == "iterated" ? coupling::Schedule::iterated : coupling::Schedule::serial;
+}
+
 coupling::ServerTerms terms_of(Case const& settings)
 {
+    CouplingSettings const& how = settings.coupling;
     return {.title = settings.title,
-            .schedule = settings.coupling.schedule == "overlapped" ? coupling::Schedule::overlapped
-                                                                   : coupling::Schedule::serial,
+            .schedule = schedule_named(settings.coupling.schedule),
             .end_time = settings.run.until,
-            .needs = needed_fields(settings)};
+            .needs = needed_fields(settings),
+            .fluid_steps = static_cast<int>(how.fluid_steps),
+            .iteration = {.tolerance = how.tolerance,
+                          .max_passes = static_cast<int>(how.max_passes),
+                          .relaxation = how.relaxation,
+                          .must_converge = how.must_converge}};
 }
 
 /// With both solvers at work at once, one core is the client's.
@@ -112,6 +126,7 @@ public:
           system_(settings, execution_, materials, walls_, std::move(particles)),
           folder_(folder),
           log_(settings, folder, mesh_, system_, client, schedule_),
+          coupling_log_(folder, mesh_, schedule_),
           engine_(settings, execution_, mesh_, walls_, client.fluid, system_)
     {
     }
@@ -138,29 +153,61 @@ public:
 
     void couple()
     {
+        auto asked = std::chrono::steady_clock::now();
         while (auto const fluid = server_.receive_fluid())
         {
-            if (at_.step == start_.step) check_start(fluid->step);
-            double const output_time = log_.sample(*fluid, engine_);
+            double const output_time = fluid->pass == 0 ? begin_step(*fluid, seconds_since(asked)) : repeat_step();
             StepReport report = engine_.advance(fluid->step, fluid->fields);
             report.timings.output = output_time;
             if (interrupted()) server_.request_stop("interrupted by the user");
             server_.send_solid(engine_.fields(), report.timings);
             log_.record(*fluid, report, engine_);
-            double const before = at_.time;
-            at_ = {at_.step + 1, fluid->step.time + fluid->step.dt};
-            if (is_checkpoint_between(before, at_.time)) keep();
+            coupling_log_.answered(*fluid, report, engine_);
+            reached_ = fluid->step.time + fluid->step.dt;
+            if (schedule_ != coupling::Schedule::iterated) accept();
+            asked = std::chrono::steady_clock::now();
         }
     }
 
     /// Figures and the last state of the particles, whatever ended the run.
     void finish()
     {
+        accept();
+        coupling_log_.add_to(log_.summary());
         log_.finish(server_.bytes());
         keep();
     }
 
 private:
+    /// Returns how long output took [s].
+    double begin_step(coupling::FluidState const& fluid, double waited)
+    {
+        accept();
+        coupling_log_.arrived(fluid, waited);
+        if (at_.step == start_.step) check_start(fluid.step);
+        double const output_time = log_.sample(fluid, engine_);
+        if (schedule_ == coupling::Schedule::iterated) engine_.remember();
+        return output_time;
+    }
+
+    /// The same for a pass after the first.
+    double repeat_step()
+    {
+        engine_.go_back();
+        return 0;
+    }
+
+    /// The step that was answered last stands.
+    void accept()
+    {
+        if (!reached_) return;
+        log_.accept();
+        double const before = at_.time;
+        at_ = {at_.step + 1, *reached_};
+        reached_.reset();
+        if (is_checkpoint_between(before, at_.time)) keep();
+    }
+
     void settle()
     {
         check_particles_against_walls(system_.particles(), walls_);
@@ -205,8 +252,10 @@ private:
     DemSystem system_;
     std::filesystem::path folder_;
     RunLog log_;
+    CouplingLog coupling_log_;
     CoupledEngine engine_;
-    RunPoint start_, at_;  ///< in coupling steps
+    RunPoint start_, at_;            ///< in coupling steps
+    std::optional<double> reached_;  ///< end of a step that is not accepted yet [s]
 };
 
 }  // namespace

@@ -77,24 +77,40 @@ double RunLog::sample(coupling::FluidState const& fluid, CoupledEngine const& en
 
 void RunLog::record(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine)
 {
-    double const dt = fluid.step.dt;
+    pending_ = {fluid.step, report, pressure_drop(fluid.fields), engine.particle_clips()};
+    dem_.compute += report.timings.compute;
+    dem_.mapping += report.timings.mapping;
+    dem_.output += report.timings.output;
+    if (fluid.pass == 0) cfd_.compute += fluid.previous.compute;
+    exchange_ = fluid.exchange;
+    client_waiting_ = fluid.waiting;
+
+    progress_.show(output::ProgressSample{.time = fluid.step.time + fluid.step.dt,
+                                          .until = settings_.run.until,
+                                          .dem_ms = 1e3 * (report.timings.compute + report.timings.mapping),
+                                          .cfd_ms = 1e3 * fluid.previous.compute,
+                                          .void_fraction_min = report.void_fraction_min,
+                                          .void_fraction_max = report.void_fraction_max,
+                                          .courant = monitor(fluid, "courant_max"),
+                                          .speed_max = fastest(system_.particles())});
+}
+
+void RunLog::accept()
+{
+    if (!pending_) return;
+    auto const [step, report, drop, clips] = *pending_;
+    pending_.reset();
+    double const dt = step.dt;
     ++steps_;
-    last_time_ = fluid.step.time + dt;
+    last_time_ = step.time + dt;
     dem_steps_ += report.dem_steps;
     cell_clips_ += report.cell_clips;
-    particle_clips_ = engine.particle_clips();
+    particle_clips_ = clips;
     momentum_imbalance_ = std::max(momentum_imbalance_, report.momentum_imbalance);
     volume_imbalance_ = std::max(volume_imbalance_, report.volume_imbalance);
     void_fraction_min_ = std::min(void_fraction_min_, report.void_fraction_min);
     void_fraction_max_ = std::max(void_fraction_max_, report.void_fraction_max);
-    dem_.compute += report.timings.compute;
-    dem_.mapping += report.timings.mapping;
-    dem_.output += report.timings.output;
-    cfd_.compute += fluid.previous.compute;
-    exchange_ = fluid.exchange;
-    client_waiting_ = fluid.waiting;
 
-    double const drop = pressure_drop(fluid.fields);
     interval_.duration += dt;
     interval_.drag += dt * report.drag_force.vec();
     interval_.pressure += dt * report.pressure_force.vec();
@@ -103,15 +119,6 @@ void RunLog::record(coupling::FluidState const& fluid, StepReport const& report,
     interval_.momentum_imbalance = std::max(interval_.momentum_imbalance, report.momentum_imbalance);
     interval_.volume_imbalance = std::max(interval_.volume_imbalance, report.volume_imbalance);
     interval_.clips += report.cell_clips;
-
-    progress_.show(output::ProgressSample{.time = last_time_,
-                                          .until = settings_.run.until,
-                                          .dem_ms = 1e3 * (report.timings.compute + report.timings.mapping),
-                                          .cfd_ms = 1e3 * fluid.previous.compute,
-                                          .void_fraction_min = report.void_fraction_min,
-                                          .void_fraction_max = report.void_fraction_max,
-                                          .courant = monitor(fluid, "courant_max"),
-                                          .speed_max = fastest(system_.particles())});
 }
 
 void RunLog::open_series(coupling::FluidState const& fluid)
@@ -261,7 +268,7 @@ void RunLog::finish(double bytes)
         auto const share = [&](double seconds) { return seconds / wall; };
         double const exchange = exchange_;
         double const work = dem_.compute + dem_.mapping + dem_.output + exchange +
-                            (schedule_ == coupling::Schedule::serial ? cfd_.compute : 0);
+                            (schedule_ == coupling::Schedule::overlapped ? 0 : cfd_.compute);
         summary_.add("wall_time", wall, "s");
         summary_.add("wall_time_per_simulated_second", wall / simulated, "s");
         summary_.add("share_dem", share(dem_.compute), "1");
@@ -270,7 +277,7 @@ void RunLog::finish(double bytes)
         summary_.add("share_exchange", share(exchange), "1");
         summary_.add("share_output", share(dem_.output), "1");
         summary_.add("share_waiting",
-                     share(schedule_ == coupling::Schedule::serial ? std::max(0.0, wall - work) : client_waiting_),
+                     share(schedule_ == coupling::Schedule::overlapped ? client_waiting_ : std::max(0.0, wall - work)),
                      "1");
         summary_.add("bytes_per_step", bytes / static_cast<double>(std::max<std::int64_t>(steps_, 1)), "B");
     }

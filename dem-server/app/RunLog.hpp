@@ -30,8 +30,11 @@ public:
     /// Before a step: particles and fluid are both at step.time. Writes what is due. Returns the seconds it took.
     double sample(coupling::FluidState const& fluid, CoupledEngine const& engine);
 
-    /// After a step.
+    /// After a step, which may still be repeated: accept() or the next record() decides.
     void record(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine);
+
+    /// The step that was recorded last stands; if there is none, nothing happens.
+    void accept();
 
     /// The end, however it came: figures to summary.json and the terminal.
     void finish(double bytes);
@@ -48,6 +51,15 @@ private:
         double pressure_drop = 0;                                                ///< time integral [Pa s]
         double volume_imbalance = 0, momentum_imbalance = 0;                     ///< worst
         std::int64_t clips = 0;
+    };
+
+    /// A step that may still be repeated.
+    struct Pending
+    {
+        coupling::Step step;
+        StepReport report;
+        double pressure_drop = 0;  ///< [Pa]
+        std::int64_t particle_clips = 0;
     };
 
     void open_series(coupling::FluidState const& fluid);
@@ -73,6 +85,7 @@ private:
     std::optional<output::TimeSeries> series_;
     std::int64_t rows_ = 0, frame_count_ = 0;
     Interval interval_;
+    std::optional<Pending> pending_;
     Vec3 last_momentum_ = Vec3::Zero();
 
     // Over the whole run.

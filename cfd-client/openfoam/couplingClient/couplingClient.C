@@ -11,6 +11,7 @@
 #include "couplingClient.H"
 #include "polyMeshArrays.H"
 #include "fvc.H"
+#include "StringStream.H"
 
 using namespace gimdem::coupling;
 
@@ -30,6 +31,20 @@ static Span<double const> components(const Field<Type>& f)
         reinterpret_cast<double const*>(f.cdata()),
         std::size_t(f.size())*pTraits<Type>::nComponents
     };
+}
+
+//- As the case file writes it
+static const char* nameOf(const Schedule schedule)
+{
+    switch (schedule)
+    {
+        case Schedule::overlapped:
+            return "overlapped";
+        case Schedule::iterated:
+            return "iterated";
+        default:
+            return "serial";
+    }
 }
 
 } // End namespace Foam
@@ -70,6 +85,8 @@ ClientOptions Foam::couplingClient::options
     o.shared_memory =
         dict.getOrDefault<bool>("sharedMemory", o.shared_memory);
 
+    o.iterates = true;
+
     const word schedule =
         args.found("schedule")
       ? args.opt<word>("schedule")
@@ -83,12 +100,16 @@ ClientOptions Foam::couplingClient::options
     {
         o.schedule = Schedule::overlapped;
     }
+    else if (schedule == "iterated")
+    {
+        o.schedule = Schedule::iterated;
+    }
     else if (schedule != "server")
     {
         FatalErrorInFunction
             << "schedule " << schedule << " of constant/couplingProperties"
-            << " or the command line is unknown; say server, serial or"
-            << " overlapped"
+            << " or the command line is unknown; say server, serial, overlapped"
+            << " or iterated"
             << exit(FatalError);
     }
 
@@ -111,7 +132,8 @@ void Foam::couplingClient::addOptions()
     (
         "schedule",
         "word",
-        "server, serial or overlapped (overrides constant/couplingProperties)"
+        "server, serial, overlapped or iterated"
+        " (overrides constant/couplingProperties)"
     );
 }
 
@@ -140,15 +162,39 @@ void Foam::couplingClient::connect
 
     Info<< "Connected to " << welcome.server.c_str() << ": "
         << welcome.title.c_str() << nl
-        << "    schedule "
-        << (welcome.schedule == Schedule::serial ? "serial" : "overlapped")
-        << ", end time " << welcome.end_time << " s" << nl << endl;
+        << "    schedule " << nameOf(welcome.schedule)
+        << ", end time " << welcome.end_time << " s";
+    if (welcome.fluid_steps > 1)
+    {
+        Info<< ", " << welcome.fluid_steps << " fluid steps to a coupling step";
+    }
+    Info<< nl << endl;
+
+    if (welcome.schedule != Schedule::iterated)
+    {
+        return;
+    }
+    if (welcome.fluid_steps > 1)
+    {
+        FatalErrorInFunction
+            << "schedule iterated with " << welcome.fluid_steps << " fluid steps"
+            << " to a coupling step (this solver can repeat one step only);"
+            << " leave out fluid_steps, or choose another schedule"
+            << exit(FatalError);
+    }
+    fixedPoint_.reset(new FluidFixedPoint(welcome.iteration));
 }
 
 
 Foam::scalar Foam::couplingClient::endTime() const
 {
     return client_.welcome().end_time;
+}
+
+
+Foam::label Foam::couplingClient::fluidSteps() const
+{
+    return client_.welcome().fluid_steps;
 }
 
 
@@ -221,6 +267,11 @@ void Foam::couplingClient::beginStep(const scalar t, const scalar deltaT)
     step_.dt = deltaT;
 
     client_.begin_step(step_, fluid_, monitors_);
+
+    if (fixedPoint_)
+    {
+        fixedPoint_->start(fluid_);
+    }
 }
 
 
@@ -228,7 +279,8 @@ void Foam::couplingClient::getSolid
 (
     volScalarField& alpha,
     volScalarField& K,
-    volVectorField& M
+    volVectorField& M,
+    const label stepsLeft
 ) const
 {
     const SolidFields& solid = client_.solid();
@@ -239,16 +291,18 @@ void Foam::couplingClient::getSolid
 
     forAll(a, celli)
     {
-        a[celli] = solid.void_fraction[celli];
+        const scalar end = solid.void_fraction[celli];
 
-        if (!(a[celli] > 0 && a[celli] < 1 + 1e-6))
+        if (!(end > 0 && end < 1 + 1e-6))
         {
             FatalErrorInFunction
-                << "the server sent void fraction " << a[celli] << " for cell "
+                << "the server sent void fraction " << end << " for cell "
                 << celli << " at " << alpha.mesh().C()[celli] << " m (the fluid"
                 << " needs 0 < alpha <= 1); check the server's mapping"
                 << exit(FatalError);
         }
+
+        a[celli] = stepsLeft > 1 ? a[celli] + (end - a[celli])/stepsLeft : end;
     }
 
     if (solid.drag_coefficient.empty())
@@ -280,7 +334,41 @@ void Foam::couplingClient::endStep(const scalar compute, const scalar output)
     timings.compute = compute;
     timings.output = output;
 
-    client_.end_step(timings);
+    client_.end_step(timings, fixedPoint_ ? fixedPoint_->residual() : 0);
+}
+
+
+bool Foam::couplingClient::iterate()
+{
+    if (!fixedPoint_)
+    {
+        return false;
+    }
+    if (fixedPoint_->improve(fluid_))
+    {
+        client_.iterate_step(fixedPoint_->guess(), fixedPoint_->residual());
+        return true;
+    }
+    if (fixedPoint_->converged())
+    {
+        return false;
+    }
+
+    OStringStream what;
+    what<< "fluid and particles did not agree in " << fixedPoint_->passes()
+        << " passes of step " << label(step_.number) << " at " << step_.time
+        << " s: residual " << fixedPoint_->residual() << ", tolerance "
+        << client_.welcome().iteration.tolerance;
+
+    if (client_.welcome().iteration.must_converge)
+    {
+        FatalErrorInFunction
+            << what.str().c_str() << "; allow more passes, a larger tolerance"
+            << " or a shorter time step" << exit(FatalError);
+    }
+    Info<< "Note: " << what.str().c_str() << endl;
+
+    return false;
 }
 
 

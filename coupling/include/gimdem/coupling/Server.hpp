@@ -11,7 +11,8 @@
 ///         server.send_solid(fields, timings);
 ///     }
 ///
-/// The schedule is the client's affair: the server always answers a fluid state at t with the solid at t + dt.
+/// The schedule is the client's affair: the server always answers a fluid state at t with the solid at t + dt. In the
+/// schedule iterated it must be able to go back by one step: FluidState::pass.
 /// Each call throws CouplingError on a fault.
 #pragma once
 
@@ -43,6 +44,8 @@ struct ServerTerms
     Schedule schedule = Schedule::serial;
     double end_time = 0;             ///< [s]
     std::vector<std::string> needs;  ///< fluid fields to ask for
+    int fluid_steps = 1;             ///< equal fluid steps that a coupling step should have
+    Iteration iteration;             ///< of schedule iterated
 };
 
 /// What Hello told.
@@ -52,6 +55,7 @@ struct ClientInfo
     FluidProperties fluid;
     std::vector<std::string> wants;    ///< solid fields the client asks for
     std::optional<Schedule> schedule;  ///< the client's wish, which is then in force; empty: the server's terms are
+    bool iterates = false;             ///< it can repeat steps; where that is also in force, it will
     bool wants_field(std::string const& field_name) const;
 };
 
@@ -64,6 +68,8 @@ struct FluidState
     Timings previous;     ///< how long the client's previous step took
     double exchange = 0;  ///< the client's sum of exchange time so far [s]
     double waiting = 0;   ///< the client's sum of waiting so far [s]
+    int pass = 0;         ///< above 0: go back to the beginning of the last step, and repeat it in this fluid
+    double residual = 0;  ///< of the pass before, relative; schedule iterated
 };
 
 class Server
