@@ -28,7 +28,32 @@ std::optional<Schedule> from_wire(v1::Schedule schedule)
     }
 }
 
+void pack_rank(Rank const& rank, v1::Hello& body)
+{
+    if (rank.count == 1) return;
+    body.set_rank(rank.number);
+    body.set_ranks(rank.count);
+    body.set_run(rank.run);
+}
+
+Rank unpack_rank(v1::Hello const& body)
+{
+    Rank const rank{body.rank(), body.ranks() == 0 ? 1 : body.ranks(), body.run()};
+    if (auto const fault = find_rank_fault(rank)) refuse("Hello: " + *fault);
+    return rank;
+}
+
 }  // namespace
+
+std::optional<std::string> find_rank_fault(Rank const& rank)
+{
+    if (rank.count < 1 || rank.count > max_ranks)
+        return std::to_string(rank.count) + " ranks (1 to " + std::to_string(max_ranks) + ")";
+    if (rank.number < 0 || rank.number >= rank.count)
+        return "rank " + std::to_string(rank.number) + " of " + std::to_string(rank.count) + " (counted from 0)";
+    if (rank.count > 1 && rank.run == 0) return "rank " + std::to_string(rank.number) + " without the run's number";
+    return std::nullopt;
+}
 
 Message pack(Hello const& hello)
 {
@@ -41,6 +66,7 @@ Message pack(Hello const& hello)
         body.add_wants(name);
     if (hello.schedule) body.set_schedule(to_wire(*hello.schedule));
     body.set_timeout(hello.timeout);
+    pack_rank(hello.rank, body);
     return message;
 }
 
@@ -54,6 +80,8 @@ Message pack(Welcome const& welcome)
     body.set_end_time(welcome.end_time);
     for (std::string const& name : welcome.needs)
         body.add_needs(name);
+    for (std::string const& endpoint : welcome.rank_endpoints)
+        body.add_rank_endpoints(endpoint);
     return message;
 }
 
@@ -66,6 +94,7 @@ Hello unpack_hello(Message const& message)
     hello.wants.assign(body.wants().begin(), body.wants().end());
     hello.schedule = from_wire(body.schedule());
     hello.timeout = body.timeout();
+    hello.rank = unpack_rank(body);
 
     check_name(hello.name, "Hello: the client's name");
     check_number(hello.fluid.density, 0, "Hello: density");
@@ -87,6 +116,7 @@ Welcome unpack_welcome(Message const& message)
     welcome.schedule = *schedule;
     welcome.end_time = body.end_time();
     welcome.needs.assign(body.needs().begin(), body.needs().end());
+    welcome.rank_endpoints.assign(body.rank_endpoints().begin(), body.rank_endpoints().end());
 
     check_name(welcome.server, "Welcome: the server's name");
     check_number(welcome.end_time, 0, "Welcome: end time");

@@ -15,6 +15,10 @@
 /// serial: begin_step sends the fluid at t and returns the solid at t + dt. overlapped: it returns the solid at t at
 /// once and both solvers compute; end_step takes the solid at t + dt. Each call throws CouplingError on a fault; an
 /// illegal order of calls is Fault::user and names the state. Not thread-safe: one Client, one thread.
+///
+/// Several processes (MPI): each has a Client, which sends its part of the mesh and of the fields and gets its part of
+/// the solid. Rank 0 connects first; its Welcome tells the endpoints of the others. All make the same calls with the
+/// same steps; what ends one of them ends all. The monitors of rank 0 count.
 #pragma once
 
 #include <memory>
@@ -38,6 +42,7 @@ struct ClientOptions
     std::optional<Schedule> schedule;  ///< ask for one; left empty, the server's case file decides
     std::vector<std::string> wants;  ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
     bool shared_memory = true;       ///< over ipc, let large fields travel through shared memory if the server can
+    Rank rank;                       ///< of a fluid that several processes solve together
 };
 
 /// The server's answer to Hello.
@@ -46,8 +51,9 @@ struct Welcome
     std::string server;  ///< name and version of the server
     std::string title;   ///< of the case
     Schedule schedule = Schedule::serial;
-    double end_time = 0;             ///< the run ends here [s]
-    std::vector<std::string> needs;  ///< fluid fields that this scene needs, names of namespace field
+    double end_time = 0;                      ///< the run ends here [s]
+    std::vector<std::string> needs;           ///< fluid fields that this scene needs, names of namespace field
+    std::vector<std::string> rank_endpoints;  ///< to rank 0 of several: where ranks 1, 2, ... connect
     bool needs_field(std::string const& name) const;
 };
 
