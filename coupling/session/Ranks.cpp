@@ -142,7 +142,7 @@ std::optional<FluidState> Ranks::receive_fluid()
             for (std::size_t rank = 0; rank < parts_.size(); ++rank)
             {
                 auto state = parts_[rank]->receive_fluid();
-                if (state.has_value() != (rank == 0 || !states.empty()) && rank > 0)
+                if (rank > 0 && state.has_value() == states.empty())
                     fail(Fault::protocol, name_ + " is out of order: " + rank_text(state ? 0 : rank) +
                                               " said goodbye, but " + rank_text(state ? rank : 0) +
                                               " began a step (all ranks must take the same steps)");
