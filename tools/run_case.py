@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import parallel
 from build import build, is_built_with_cuda
 from case_folder import CaseDescription, check_grid, describe, find_case_file
 from clients import CLIENTS, Program, find_client
@@ -36,7 +37,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--grid", metavar="X", help="mesh variant of the case (case.toml)")
     parser.add_argument("--until", metavar="T", type=positive, help="simulated time [s] (case.toml)")
     parser.add_argument("--threads", metavar="N", type=count, help="threads of the server; 0: all cores (case.toml)")
-    parser.add_argument("--ranks", metavar="N", type=count, default=1, help="processes of the client (1)")
+    parser.add_argument("--ranks", metavar="N", type=count, default=1,
+                        help="processes that solve the fluid, with MPI (1)")
     parser.add_argument("--restart", metavar="FILE",
                         help="go on from a checkpoint, or from the latest of the case: --restart latest")
     parser.add_argument("--output", metavar="DIR", help="run folder; must be new or empty (CASE_DIR/runs/NNNN)")
@@ -57,7 +59,7 @@ def count(text: str) -> int:
 
 def run(options: argparse.Namespace) -> int:
     """The whole job; returns the exit code."""
-    refuse_what_is_to_come(options.client, options.device, options.ranks)
+    refuse_what_is_to_come(options.client, options.device)
     case_file = find_case_file(options.case)
     setup(quiet=True)
     build(("gimdem-server",))
@@ -74,7 +76,7 @@ def run(options: argparse.Namespace) -> int:
         endpoint.close()
 
 
-def refuse_what_is_to_come(client: str | None, device: str, ranks: int) -> None:
+def refuse_what_is_to_come(client: str | None, device: str) -> None:
     """Options whose meaning is settled but that nothing implements here."""
     if client == "reference":
         raise UserError("the reference client is not part of this version; use --client openfoam", 2)
@@ -83,8 +85,6 @@ def refuse_what_is_to_come(client: str | None, device: str, ranks: int) -> None:
     if device == "cuda" and not is_built_with_cuda():
         raise UserError("this build computes particles on the CPU only; use --device cpu, or leave it out, or build "
                         "with CUDA as docs/gpu.md says", 2)
-    if ranks != 1:
-        raise UserError(f"this version runs one client process, not {ranks}; leave out --ranks", 2)
 
 
 def check_client(case: CaseDescription, options: argparse.Namespace) -> None:
@@ -103,7 +103,8 @@ def choose(case: CaseDescription, options: argparse.Namespace) -> CaseDescriptio
     case.until = options.until or case.until
     case.device = options.device
     case.precision = options.precision
-    refuse_what_is_to_come(case.client, "auto", 1)
+    refuse_what_is_to_come(case.client, "auto")
+    parallel.check(options.ranks, case.client)
     return case
 
 
@@ -117,6 +118,7 @@ class Run:
     endpoint: Endpoint
     threads: int | None
     restart: Restart | None = None
+    ranks: int = 1
 
     @property
     def client_log(self) -> Path:
@@ -131,6 +133,7 @@ class Run:
             "case": str(self.case.file), "client": self.case.client, "grid": self.case.grid,
             "schedule": self.case.schedule, "until": self.case.until, "threads": self.threads,
             "endpoint": self.endpoint.address, "restart": str(self.restart.checkpoint) if self.restart else None,
+            "ranks": self.ranks,
         }
 
     def start_server(self, stderr: int) -> subprocess.Popen[bytes]:
@@ -148,16 +151,28 @@ class Run:
         with self.server_log.open("ab") as log:
             return spawn(command, stdout=log, stderr=stderr)
 
-    def start_client(self) -> subprocess.Popen[bytes]:
+    def start_client(self, scratch: parallel.Scratch) -> subprocess.Popen[bytes]:
         assert self.client is not None
-        command = self.client.start_command(self.folder, self.endpoint.address)
+        command = parallel.command(self.client.start_command(self.folder, self.endpoint.address), self.ranks)
         with self.client_log.open("ab") as log:
-            return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder, env=self.client.environment())
+            return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder,
+                         env=scratch.environment(self.client.environment()))
+
+    def carry_out(self) -> Outcome:
+        """Both processes, to their end."""
+        scratch = parallel.Scratch(self.ranks)
+        try:
+            start_client = (lambda: self.start_client(scratch)) if self.client else None
+            name = self.client.name if self.client else ""
+            return Supervisor(self.case.timeout, name).run(self.start_server, self.endpoint.bound, start_client)
+        finally:
+            scratch.remove()
 
 
 def run_in_folder(case: CaseDescription, client: Program | None, options: argparse.Namespace, endpoint: Endpoint) -> int:
+    parallel.reconstruct_before_restart(case, options.restart)
     restart = find_restart(case, options.restart)
-    run = Run(case, client, make_run_folder(case, options.output), endpoint, options.threads, restart)
+    run = Run(case, client, make_run_folder(case, options.output), endpoint, options.threads, restart, options.ranks)
     what = "particles alone" if client is None else f"{client.name}, grid {case.grid or 'as it is'}, {case.schedule}"
     say("case", case.title)
     say("run", f"{shown(run.folder)}: {what}, until {case.until:g} s")
@@ -167,12 +182,15 @@ def run_in_folder(case: CaseDescription, client: Program | None, options: argpar
         say("restart", shown(restart.checkpoint))
     if client:
         say("mesh", client.make_mesh(case, run.folder))
+    if run.ranks > 1:
+        say("ranks", parallel.decompose(run.folder, run.ranks))
     record = RunRecord(run.folder, run.settings())
     start = time.monotonic()
-    outcome = Supervisor(case.timeout, client.name if client else "").run(
-        run.start_server, endpoint.bound, run.start_client if client else None)
+    outcome = run.carry_out()
     wall_time = time.monotonic() - start
     record.finish(in_words(outcome), wall_time)
+    if run.ranks > 1 and not outcome.killed:
+        say("ranks", parallel.reconstruct(run.folder))
     if outcome.killed or not (outcome.good() or outcome.signal):
         raise UserError(failure(outcome, run), exit_code(outcome))
     for word in outcome.last_words:

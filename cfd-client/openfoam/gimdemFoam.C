@@ -44,6 +44,7 @@ Description
 
 #include <csignal>
 #include <memory>
+#include <unistd.h>
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
@@ -217,6 +218,37 @@ static string reasonOf(const error& e)
 }
 
 
+//- Wait until every processor has come here, so many seconds at most: the first
+//  to exit ends them all, and others may still be writing
+static void waitForProcessors(const scalar seconds)
+{
+    const int tag = UPstream::msgType() + 1517;
+    const label first = UPstream::nRequests();
+    const char sent = 0;
+    List<char> received(Pstream::nProcs());
+
+    for (label proci = 0; proci < Pstream::nProcs(); ++proci)
+    {
+        if (proci != Pstream::myProcNo())
+        {
+            const auto nonBlocking = UPstream::commsTypes::nonBlocking;
+            UIPstream::read(nonBlocking, proci, &received[proci], 1, tag);
+            UOPstream::write(nonBlocking, proci, &sent, 1, tag);
+        }
+    }
+
+    const clockTime clock;
+    for (label i = first; i < UPstream::nRequests(); ++i)
+    {
+        while (!UPstream::finishedRequest(i) && clock.elapsedTime() < seconds)
+        {
+            usleep(10000);
+        }
+    }
+    UPstream::resetRequests(first);
+}
+
+
 //- Keep freed memory: OpenFOAM makes and drops large fields all the time, and
 //  each one fresh from the system costs its page faults (a tenth of a step)
 static void keepFreedMemory()
@@ -233,18 +265,6 @@ int main(int argc, char *argv[])
 {
     keepFreedMemory();
 
-    for (int i = 1; i < argc; ++i)
-    {
-        if (std::string(argv[i]) == "-parallel")
-        {
-            std::cerr
-                << "gimdemFoam: -parallel is not possible yet (the mesh is sent"
-                << " by one process); run without it" << std::endl;
-            return 1;
-        }
-    }
-
-    argList::noParallel();
     argList::addNote
     (
         "The fluid of a coupled run: volume-averaged Navier-Stokes equations,"
@@ -287,6 +307,7 @@ int main(int argc, char *argv[])
     }
     Info<< flush;
     std::cerr << "gimdemFoam: " << reason << std::endl;
+    waitForProcessors(2);
 
     // Not return: the end of args makes the exit code 0, whatever is returned
     UPstream::exit(1);

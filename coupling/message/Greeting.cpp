@@ -57,7 +57,32 @@ Iteration unpack_iteration(v1::Iteration const& body)
     return {body.tolerance(), body.max_passes(), body.relaxation(), body.must_converge()};
 }
 
+void pack_rank(Rank const& rank, v1::Hello& body)
+{
+    if (rank.count == 1) return;
+    body.set_rank(rank.number);
+    body.set_ranks(rank.count);
+    body.set_run(rank.run);
+}
+
+Rank unpack_rank(v1::Hello const& body)
+{
+    Rank const rank{body.rank(), body.ranks() == 0 ? 1 : body.ranks(), body.run()};
+    if (auto const fault = find_rank_fault(rank)) refuse("Hello: " + *fault);
+    return rank;
+}
+
 }  // namespace
+
+std::optional<std::string> find_rank_fault(Rank const& rank)
+{
+    if (rank.count < 1 || rank.count > max_ranks)
+        return std::to_string(rank.count) + " ranks (1 to " + std::to_string(max_ranks) + ")";
+    if (rank.number < 0 || rank.number >= rank.count)
+        return "rank " + std::to_string(rank.number) + " of " + std::to_string(rank.count) + " (counted from 0)";
+    if (rank.count > 1 && rank.run == 0) return "rank " + std::to_string(rank.number) + " without the run's number";
+    return std::nullopt;
+}
 
 Message pack(Hello const& hello)
 {
@@ -71,6 +96,7 @@ Message pack(Hello const& hello)
     if (hello.schedule) body.set_schedule(to_wire(*hello.schedule));
     body.set_timeout(hello.timeout);
     body.set_iterates(hello.iterates);
+    pack_rank(hello.rank, body);
     return message;
 }
 
@@ -86,6 +112,8 @@ Message pack(Welcome const& welcome)
         body.add_needs(name);
     body.set_fluid_steps(welcome.fluid_steps);
     if (welcome.schedule == Schedule::iterated) pack_iteration(welcome.iteration, *body.mutable_iteration());
+    for (std::string const& endpoint : welcome.rank_endpoints)
+        body.add_rank_endpoints(endpoint);
     return message;
 }
 
@@ -99,6 +127,7 @@ Hello unpack_hello(Message const& message)
     hello.schedule = from_wire(body.schedule());
     hello.timeout = body.timeout();
     hello.iterates = body.iterates();
+    hello.rank = unpack_rank(body);
 
     check_name(hello.name, "Hello: the client's name");
     check_number(hello.fluid.density, 0, "Hello: density");
@@ -122,6 +151,7 @@ Welcome unpack_welcome(Message const& message)
     welcome.needs.assign(body.needs().begin(), body.needs().end());
     welcome.fluid_steps = std::max(1, body.fluid_steps());
     if (*schedule == Schedule::iterated) welcome.iteration = unpack_iteration(body.iteration());
+    welcome.rank_endpoints.assign(body.rank_endpoints().begin(), body.rank_endpoints().end());
 
     check_name(welcome.server, "Welcome: the server's name");
     check_number(welcome.end_time, 0, "Welcome: end time");

@@ -39,6 +39,7 @@ struct Client::Impl
     Event begin_event() const;
     void finish(std::string const& reason);
 
+    void check_rank_endpoints();
     session::Letter receive(std::string const& awaited);
     Time take_solid();
     bool overlaps() const { return welcome.schedule == Schedule::overlapped; }
@@ -74,9 +75,11 @@ struct Client::Impl
 };
 
 Client::Impl::Impl(ClientOptions given)
-    : options(std::move(given)), session(transport::Role::client, options.name, options.timeout)
+    : options(std::move(given)),
+      session(transport::Role::client, session::name_of_rank(options.name, options.rank), options.timeout)
 {
     session::require_name(options.name, "ClientOptions.name");
+    session::require_rank(options.rank);
     session::require_seconds(options.timeout, message::min_timeout, "ClientOptions.timeout");
     session::require_seconds(options.connect_time, 0, "ClientOptions.connect_time");
     session::require_seconds(options.step_time, message::min_timeout, "ClientOptions.step_time");
@@ -91,7 +94,13 @@ void Client::Impl::connect(FluidProperties const& fluid)
     session.advance(Event::connect);
     shared.want(options.shared_memory && session.is_ipc());
     message::Message hello = message::pack(
-        message::Hello{options.name, fluid, options.wants, options.schedule, options.timeout, options.iterates});
+        message::Hello{.name = options.name,
+                       .fluid = fluid,
+                       .wants = options.wants,
+                       .schedule = options.schedule,
+                       .timeout = options.timeout,
+                       .iterates = options.iterates,
+                       .rank = options.rank});
     shared.offer(hello);
     session.send(std::move(hello));
 
@@ -103,6 +112,7 @@ void Client::Impl::connect(FluidProperties const& fluid)
     session::Letter const letter = receive("Welcome");
     welcome = session.read([&] { return message::unpack_welcome(letter.message); });
     session.set_peer_name(welcome.server);
+    check_rank_endpoints();
     shared.agree(letter.message);
     terms.fluid = session.read([&] { return message::choose_fluid_fields(welcome.needs, Fault::protocol); });
 }
@@ -192,6 +202,16 @@ void Client::Impl::finish(std::string const& reason)
     if (greeted) session.send(message::pack_goodbye(reason));
     session.advance(Event::finish);
     session.close();
+}
+
+/// A server of protocol 1.0 would take rank 0 for the whole client.
+void Client::Impl::check_rank_endpoints()
+{
+    auto const expected = static_cast<std::size_t>(options.rank.number == 0 ? options.rank.count - 1 : 0);
+    if (welcome.rank_endpoints.size() == expected) return;
+    session.fail(Fault::version, session.peer_name() + " told endpoints for " +
+                                     std::to_string(welcome.rank_endpoints.size()) + " more ranks instead of " +
+                                     std::to_string(expected) + "; update it, or run one process");
 }
 
 session::Letter Client::Impl::receive(std::string const& awaited)

@@ -152,15 +152,39 @@ Letter Session::receive(std::string const& awaited, Time deadline, double patien
     return std::move(*delivery.letter);
 }
 
+bool Session::wait_for_contact(Time deadline)
+{
+    if (!watch_) return inbox_.wait_for_contact(deadline);
+    while (true)
+    {
+        Time const now = transport::Clock::now();
+        if (inbox_.wait_for_contact(std::min(deadline, now + look_interval))) return true;
+        if (now >= deadline) return false;
+        watch_();
+    }
+}
+
+Delivery Session::watched_letter(Time deadline)
+{
+    while (true)
+    {
+        Time const now = transport::Clock::now();
+        Delivery delivery = inbox_.wait(std::min(deadline, now + look_interval));
+        if (delivery.letter || delivery.ending || now >= deadline) return delivery;
+        watch_();
+    }
+}
+
 Delivery Session::next_letter(Time deadline)
 {
-    if (!postbox_) return inbox_.wait(deadline);
+    if (!postbox_) return watch_ ? watched_letter(deadline) : inbox_.wait(deadline);
     while (true)
     {
         if (auto letter = take_post()) return {std::move(letter), std::nullopt};
         Time const now = transport::Clock::now();
         if (now >= deadline || inbox_.peek() || inbox_.has_ended()) return inbox_.wait(now);
         postbox_->wait(std::min(deadline, now + look_interval));
+        if (watch_) watch_();
     }
 }
 
@@ -194,6 +218,14 @@ void Session::look_for_trouble(std::string const& awaited)
     bool const expected = event && next_state(rules_, state(), *event);
     if (expected) return;
     if (kind || inbox_.has_ended()) receive(awaited, Time::min(), 0);
+}
+
+void Session::look_for_loss(std::string const& awaited)
+{
+    if (is_over()) return;
+    look_for_trouble(awaited);
+    if (inbox_.peek() == Kind::kGoodbye) return;
+    if (auto const ending = inbox_.ending()) fail_by_ending(*ending, awaited);
 }
 
 void Session::check_letter(Letter const& letter, std::string const& awaited)

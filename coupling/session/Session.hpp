@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -64,7 +65,11 @@ public:
     /// The next message, checked against the state table. awaited: what we wait for, in words.
     Letter receive(std::string const& awaited, Time deadline, double patience);
     /// False if the peer has not appeared by then.
-    bool wait_for_contact(Time deadline) { return inbox_.wait_for_contact(deadline); }
+    bool wait_for_contact(Time deadline);
+    /// What receive() and wait_for_contact() call every 20 ms while nothing comes; what it throws ends the waiting.
+    void set_watch(std::function<void()> watch) { watch_ = std::move(watch); }
+    /// Throws if the peer is gone, or has sent what is not allowed now; leaves unread what it has sent otherwise.
+    void look_for_loss(std::string const& awaited);
     /// Throws what receive() would throw at once: a fault that is known before we send more.
     void look_for_trouble(std::string const& awaited);
 
@@ -89,6 +94,7 @@ public:
 private:
     bool is_over() const;
     Delivery next_letter(Time deadline);
+    Delivery watched_letter(Time deadline);
     std::optional<Letter> take_post();
     void stamp(message::Message& message) const;
     void fall(std::string const& why);
@@ -128,6 +134,7 @@ private:
     std::unique_ptr<transport::Postbox> postbox_;  ///< null: everything comes through the channel
     bool is_announced_ = false;                    ///< prepare() told the peer
     std::optional<message::Message> incoming_;     ///< announced by the peer, perhaps not complete yet
+    std::function<void()> watch_;
     std::unique_ptr<transport::Channel> channel_;  ///< last: its thread uses the rest
 };
 

@@ -12,6 +12,9 @@
 #include "polyMeshArrays.H"
 #include "fvc.H"
 #include "StringStream.H"
+#include "Pstream.H"
+
+#include <random>
 
 using namespace gimdem::coupling;
 
@@ -45,6 +48,33 @@ static const char* nameOf(const Schedule schedule)
         default:
             return "serial";
     }
+}
+
+
+//- Which processor this is, of a run whose number the master draws
+static Rank thisRank()
+{
+    Rank rank;
+
+    if (Pstream::parRun())
+    {
+        string run;
+        if (Pstream::master())
+        {
+            std::random_device random;
+            run = std::to_string
+            (
+                (std::uint64_t(random()) << 32 | random()) | 1
+            );
+        }
+        Pstream::scatter(run);
+
+        rank.number = Pstream::myProcNo();
+        rank.count = Pstream::nProcs();
+        rank.run = std::stoull(run);
+    }
+
+    return rank;
 }
 
 } // End namespace Foam
@@ -86,6 +116,7 @@ ClientOptions Foam::couplingClient::options
         dict.getOrDefault<bool>("sharedMemory", o.shared_memory);
 
     o.iterates = true;
+    o.rank = thisRank();
 
     const word schedule =
         args.found("schedule")
@@ -142,7 +173,8 @@ void Foam::couplingClient::addOptions()
 
 Foam::couplingClient::couplingClient(const Time& runTime, const argList& args)
 :
-    client_(options(runTime, args))
+    options_(options(runTime, args)),
+    client_(options_)
 {}
 
 
@@ -158,7 +190,26 @@ void Foam::couplingClient::connect
     fluid.density = rho.value();
     fluid.viscosity = mu.value();
 
-    const Welcome& welcome = client_.connect(fluid);
+    // The master comes first and learns where the others are to connect
+    List<string> endpoints(Pstream::nProcs());
+    if (Pstream::master())
+    {
+        const Welcome& welcome = client_.connect(fluid);
+        for (std::size_t i = 0; i < welcome.rank_endpoints.size(); ++i)
+        {
+            endpoints[i + 1] = welcome.rank_endpoints[i];
+        }
+    }
+    Pstream::scatter(endpoints);
+    if (!Pstream::master())
+    {
+        ClientOptions own(options_);
+        own.endpoint = endpoints[Pstream::myProcNo()];
+        client_ = Client(own);
+        client_.connect(fluid);
+    }
+
+    const Welcome& welcome = client_.welcome();
 
     Info<< "Connected to " << welcome.server.c_str() << ": "
         << welcome.title.c_str() << nl

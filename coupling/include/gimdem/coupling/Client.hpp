@@ -16,6 +16,10 @@
 /// once and both solvers compute; end_step takes the solid at t + dt. Each call throws CouplingError on a fault; an
 /// illegal order of calls is Fault::user and names the state. Not thread-safe: one Client, one thread.
 /// iterated: as serial, and iterate_step() between the two repeats the step; FixedPoint.hpp shows the loop.
+///
+/// Several processes (MPI): each has a Client, which sends its part of the mesh and of the fields and gets its part of
+/// the solid. Rank 0 connects first; its Welcome tells the endpoints of the others. All make the same calls with the
+/// same steps; what ends one of them ends all. The monitors of rank 0 count.
 #pragma once
 
 #include <memory>
@@ -40,6 +44,7 @@ struct ClientOptions
     std::vector<std::string> wants;  ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
     bool shared_memory = true;       ///< over ipc, let large fields travel through shared memory if the server can
     bool iterates = false;           ///< the program calls iterate_step() if the schedule is iterated
+    Rank rank;                       ///< of a fluid that several processes solve together
 };
 
 /// The server's answer to Hello.
@@ -48,10 +53,11 @@ struct Welcome
     std::string server;  ///< name and version of the server
     std::string title;   ///< of the case
     Schedule schedule = Schedule::serial;
-    double end_time = 0;             ///< the run ends here [s]
-    std::vector<std::string> needs;  ///< fluid fields that this scene needs, names of namespace field
-    int fluid_steps = 1;             ///< equal fluid steps that a coupling step should have
-    Iteration iteration;             ///< of schedule iterated
+    double end_time = 0;                      ///< the run ends here [s]
+    std::vector<std::string> needs;           ///< fluid fields that this scene needs, names of namespace field
+    int fluid_steps = 1;                      ///< equal fluid steps that a coupling step should have
+    Iteration iteration;                      ///< of schedule iterated
+    std::vector<std::string> rank_endpoints;  ///< to rank 0 of several: where ranks 1, 2, ... connect
     bool needs_field(std::string const& name) const;
 };
 

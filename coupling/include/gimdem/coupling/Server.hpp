@@ -14,6 +14,9 @@
 /// The schedule is the client's affair: the server always answers a fluid state at t with the solid at t + dt. In the
 /// schedule iterated it must be able to go back by one step: FluidState::pass.
 /// Each call throws CouplingError on a fault.
+///
+/// A client of several processes looks like one: its meshes come merged, its fields whole, the ranks' cells one after
+/// the other. Every call waits for all ranks.
 #pragma once
 
 #include <memory>
@@ -56,6 +59,7 @@ struct ClientInfo
     std::vector<std::string> wants;    ///< solid fields the client asks for
     std::optional<Schedule> schedule;  ///< the client's wish, which is then in force; empty: the server's terms are
     bool iterates = false;             ///< it can repeat steps; where that is also in force, it will
+    std::int32_t ranks = 1;            ///< processes that the client consists of
     bool wants_field(std::string const& field_name) const;
 };
 

@@ -52,7 +52,19 @@ struct Patch
     PatchKind kind = PatchKind::wall;
     std::int32_t start_face = 0;  ///< first face of the patch, >= number of internal faces
     std::int32_t face_count = 0;
+    std::int32_t neighbour_rank = 0;  ///< of a processor patch: the rank that has the cells behind it
 };
+
+/// Which of the processes that solve the fluid together (MPI) this is; the default is one process alone.
+struct Rank
+{
+    std::int32_t number = 0;  ///< 0, 1, ..., count - 1
+    std::int32_t count = 1;   ///< at most max_ranks
+    std::uint64_t run = 0;    ///< where count > 1: a random number, not 0, that rank 0 tells the others
+};
+
+/// Each rank costs the server a thread and some fifteen open files, of the 1024 that systems usually allow.
+inline constexpr std::int32_t max_ranks = 32;
 
 /// A polyhedral mesh by reference, in the owner/neighbour addressing of OpenFOAM.
 ///

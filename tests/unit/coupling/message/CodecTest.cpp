@@ -62,7 +62,7 @@ TEST_P(Damaged, MessageIsRefused)
 
 std::vector<Damage> const damages{
     {"OlderVersion", [](auto& m) { m.envelope.set_protocol_major(0); }, Fault::version,
-     "protocol 0.0 and this side speaks 1.1"},
+     "protocol 0.0 and this side speaks 1."},
     {"NewerVersion", [](auto& m) { m.envelope.set_protocol_major(2); }, Fault::version, "protocol 2.0"},
     {"NoKind", [](auto& m) { m.envelope.clear_kind(); }, Fault::protocol, "without a message"},
     {"EndlessIteration", [](auto& m) { m.envelope.set_iteration(10001); }, Fault::protocol, "iteration 10001"},
