@@ -80,7 +80,9 @@ Server::Impl::Impl(ServerOptions given)
     session::require_seconds(options.timeout, message::min_timeout, "ServerOptions.timeout");
     session::require_seconds(options.connect_time, 0, "ServerOptions.connect_time");
     session::require_seconds(options.step_time, message::min_timeout, "ServerOptions.step_time");
-    session.open(transport::Socket::bind(options.endpoint));
+    std::optional<transport::ServerKeys> keys;
+    if (!options.keys.empty()) keys = transport::read_server_keys(options.keys);
+    session.open(transport::Socket::bind(options.endpoint, keys), options.log);
     shared.want(options.shared_memory && session.is_ipc());
 }
 
@@ -104,6 +106,7 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
         options.name, offered.title, hello.schedule.value_or(offered.schedule), offered.end_time, offered.needs});
     shared.offer(welcome);
     shared.agree(letter.message);
+    session.limit_arrays(transport::half_of_memory());
     session.send(std::move(welcome));
     return {hello.name, hello.fluid, hello.wants, hello.schedule};
 }
@@ -119,6 +122,7 @@ Mesh Server::Impl::receive_mesh()
         [&] { return shared.map_announced(letter.message); }));  // first, so that no fault leaves its name behind
     Mesh mesh = session.read([&] { return message::unpack_mesh(letter.message); });
     terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
+    session.limit_arrays(message::field_bytes(terms.fluid, terms.cell_count));
     return mesh;
 }
 

@@ -30,7 +30,7 @@ namespace gimdem::coupling
 
 struct ClientOptions
 {
-    std::string endpoint;              ///< "ipc:///path/socket" or "tcp://127.0.0.1:port"
+    std::string endpoint;              ///< "ipc:///path/socket" or "tcp://127.0.0.1:port", with keys "tcp://host:port"
     std::string name;                  ///< who we are, for messages and logs
     double timeout = 30;               ///< a peer silent for this long is dead [s]
     double connect_time = 60;          ///< how long connect() waits for a server to appear [s]
@@ -38,6 +38,7 @@ struct ClientOptions
     std::optional<Schedule> schedule;  ///< ask for one; left empty, the server's case file decides
     std::vector<std::string> wants;  ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
     bool shared_memory = true;       ///< over ipc, let large fields travel through shared memory if the server can
+    std::string keys;                ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
 };
 
 /// The server's answer to Hello.
