@@ -48,8 +48,8 @@ std::optional<std::vector<std::string>> receive(zmq::socket_t& socket)
 
 void reply(zmq::socket_t& socket, std::string const& request, bool welcome, std::string const& user)
 {
-    std::array<std::string, 6> const parts{
-        "1.0", request, welcome ? "200" : "400", welcome ? "OK" : "unknown key", user, ""};
+    std::array<std::string, 6> const parts{"1.0", request, welcome ? "200" : "400", welcome ? "OK" : "unknown key",
+                                           user,  ""};
     for (std::size_t k = 0; k < parts.size(); ++k)
         socket.send(zmq::buffer(parts[k]), k + 1 < parts.size() ? zmq::send_flags::sndmore : zmq::send_flags::none);
 }

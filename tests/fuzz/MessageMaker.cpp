@@ -24,17 +24,24 @@ unsigned constexpr kind_count = 9;
 double odd_number(Bytes& input)
 {
     using Limits = std::numeric_limits<double>;
-    std::array<double, 8> constexpr odd{0, -1, Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), 1e308,
-                                        Limits::denorm_min(), 0.1};
+    std::array<double, 8> constexpr odd{
+        0, -1, Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), 1e308, Limits::denorm_min(), 0.1};
     unsigned const which = input.choose(odd.size() + 1);
     return which < odd.size() ? odd[which] : input.raw<double>();
 }
 
 std::int64_t odd_count(Bytes& input)
 {
-    std::array<std::int64_t, 10> constexpr odd{
-        0, -1, 1, 2, 255, 1 << 20, std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::min(),
-        std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()};
+    std::array<std::int64_t, 10> constexpr odd{0,
+                                               -1,
+                                               1,
+                                               2,
+                                               255,
+                                               1 << 20,
+                                               std::numeric_limits<std::int32_t>::max(),
+                                               std::numeric_limits<std::int32_t>::min(),
+                                               std::numeric_limits<std::int64_t>::max(),
+                                               std::numeric_limits<std::int64_t>::min()};
     unsigned const which = input.choose(odd.size() + 1);
     return which < odd.size() ? odd[which] : input.raw<std::int64_t>();
 }
@@ -95,13 +102,13 @@ void spoil(Message& message, Bytes& input)
 
     int const size = fields.FieldSize(message, &field);
     unsigned const how = input.choose(4);
-    if (field.cpp_type() == FieldDescriptor::CPPTYPE_STRING)
-        return fields.AddString(&message, &field, odd_text(input));
+    if (field.cpp_type() == FieldDescriptor::CPPTYPE_STRING) return fields.AddString(&message, &field, odd_text(input));
     if (field.cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) return;
     if (size == 0 || how == 0) return spoil(*fields.AddMessage(&message, &field), input);
     int const which = static_cast<int>(input.choose(static_cast<unsigned>(size)));
     if (how == 1) return fields.RemoveLast(&message, &field);
-    if (how == 2) return fields.AddMessage(&message, &field)->CopyFrom(fields.GetRepeatedMessage(message, &field, which));
+    if (how == 2)
+        return fields.AddMessage(&message, &field)->CopyFrom(fields.GetRepeatedMessage(message, &field, which));
     spoil(*fields.MutableRepeatedMessage(&message, &field, which), input);
 }
 
@@ -174,7 +181,8 @@ coupling::transport::Frames frames_of(RawMessage const& message, Bytes& input)
                 texts[k] = input.text(input.choose(200));
                 break;
             default:
-                if (!texts[k].empty()) texts[k][input.raw<std::uint16_t>() % texts[k].size()] = static_cast<char>(input.byte());
+                if (!texts[k].empty())
+                    texts[k][input.raw<std::uint16_t>() % texts[k].size()] = static_cast<char>(input.byte());
         }
     }
 

@@ -16,10 +16,10 @@ namespace gimdem::fuzz
 struct Truth
 {
     std::uint64_t session = 1;
-    std::int64_t step = 1;     ///< the one that is due
-    double time = 0;           ///< of that step [s]
-    double dt = 1e-3;          ///< [s]
-    std::int32_t cells = 2;    ///< of the mesh
+    std::int64_t step = 1;   ///< the one that is due
+    double time = 0;         ///< of that step [s]
+    double dt = 1e-3;        ///< [s]
+    std::int32_t cells = 2;  ///< of the mesh
 };
 
 /// A message of that kind (`Envelope`'s field number of it, 10 to 18), with the mistakes that the input asks for.

@@ -98,8 +98,8 @@ bool Wire::is_letter(Frames const& frames) const
 
 std::size_t Wire::supply() const
 {
-    return delivered_ + static_cast<std::size_t>(
-                            std::count_if(coming_.begin(), coming_.end(), [this](auto const& f) { return is_letter(f); }));
+    return delivered_ + static_cast<std::size_t>(std::count_if(coming_.begin(), coming_.end(),
+                                                               [this](auto const& f) { return is_letter(f); }));
 }
 
 bool Wire::has_sent(coupling::message::Kind kind) const

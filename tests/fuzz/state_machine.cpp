@@ -150,8 +150,8 @@ void run_client(Bytes input)
     Script script(input);
     script.truth.session = 77;  // that of raw_welcome()
     Mesh const mesh = test::BoxMesh::make({1, 1, script.truth.cells}, {1, 1, 1});
-    MeshView const view{mesh.points, mesh.face_offsets, mesh.face_points, mesh.owner,
-                        mesh.neighbour, mesh.cell_count, mesh.patches};
+    MeshView const view{mesh.points,    mesh.face_offsets, mesh.face_points, mesh.owner,
+                        mesh.neighbour, mesh.cell_count,   mesh.patches};
     auto const cells = static_cast<std::size_t>(mesh.cell_count);
     std::vector<double> values(9 * cells, 0.5);
     auto const fluid = [&]
@@ -187,7 +187,9 @@ void run_client(Bytes input)
             case 2:
                 script.prepare({solid_state});
                 if (script.does(overlapped ? 0 : 1,
-                                [&] { client.begin_step({script.truth.step, script.truth.time, script.truth.dt}, fluid()); }))
+                                [&] {
+                                    client.begin_step({script.truth.step, script.truth.time, script.truth.dt}, fluid());
+                                }))
                     next = 3;
                 break;
             case 3:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <malloc.h>
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <filesystem>
 #include <string>
@@ -54,8 +54,8 @@ std::string run_cycle(std::string const& given)
         }
         other.join();
     }
-    bool const left_file = given.rfind("ipc", 0) == 0 &&
-                           (std::filesystem::exists(file_of(given)) || std::filesystem::exists(file_of(given) + ".lock"));
+    bool const left_file = given.rfind("ipc", 0) == 0 && (std::filesystem::exists(file_of(given)) ||
+                                                          std::filesystem::exists(file_of(given) + ".lock"));
     if (left_file) return "a socket file is left";
     if (!shared_memory_names().empty()) return "shared memory is left";
     return fault;

@@ -17,10 +17,10 @@
 #include "ProcessMeters.hpp"
 #include "RawMessages.hpp"
 #include "Relay.hpp"
-#include "ServerProcess.hpp"
 #include "SessionScript.hpp"
 #include "SharedMemoryNames.hpp"
 #include "Storm.hpp"
+#include "TemporaryFolder.hpp"
 
 namespace gimdem::test
 {
@@ -59,8 +59,9 @@ public:
     std::string start_server(double timeout, bool ipc, std::string const& answer_time = "0")
     {
         given_ = ipc ? unused_ipc_endpoint() : any_tcp_endpoint();
-        server.emplace(std::vector<std::string>{GIMDEM_COUPLING_PEER, "server", given_, std::to_string(timeout), answer_time},
-                       folder_ / "server.txt");
+        server.emplace(
+            std::vector<std::string>{GIMDEM_COUPLING_PEER, "server", given_, std::to_string(timeout), answer_time},
+            folder_ / "server.txt");
         std::string const before = "bound to ";
         expect(server->wait_for_output("\n", appears_in), "the server did not start");
         std::string const output = server->output();
@@ -71,14 +72,13 @@ public:
     void start_client(std::string const& endpoint, double timeout, std::string const& steps,
                       std::string const& step_time = "0")
     {
-        client.emplace(std::vector<std::string>{GIMDEM_COUPLING_PEER, "client", endpoint, std::to_string(timeout), steps,
-                                                step_time},
+        client.emplace(std::vector<std::string>{GIMDEM_COUPLING_PEER, "client", endpoint, std::to_string(timeout),
+                                                steps, step_time},
                        folder_ / "client.txt");
     }
     void wait_for_step(int step)
     {
-        expect(client->wait_for_output("step " + std::to_string(step) + "\n", appears_in),
-               "the client makes no steps");
+        expect(client->wait_for_output("step " + std::to_string(step) + "\n", appears_in), "the client makes no steps");
     }
 
     /// Waits for the end, which must come, and for a reason.
@@ -216,10 +216,13 @@ void damage_message(Scene& scene)
         scene.start_client(relay.endpoint(), long_timeout, "20");
         End const client = scene.end_of_client();
         scene.expect(relay.has_damaged() || client.code == 0, "the client ended before the damage: " + client.reason);
-        if (client.code != 0) scene.expect_fault(client, {Fault::protocol, Fault::peer, Fault::version, Fault::timeout, Fault::endpoint}, "client");
+        if (client.code != 0)
+            scene.expect_fault(client, {Fault::protocol, Fault::peer, Fault::version, Fault::timeout, Fault::endpoint},
+                               "client");
     }
     End const end = scene.end_of_server();
-    if (end.code != 0) scene.expect_fault(end, {Fault::protocol, Fault::peer, Fault::version, Fault::timeout}, "server");
+    if (end.code != 0)
+        scene.expect_fault(end, {Fault::protocol, Fault::peer, Fault::version, Fault::timeout}, "server");
     scene.expect_tidy(true);
 }
 
@@ -265,7 +268,8 @@ int run_faults(int count, unsigned seed)
     for (int n = 0; n < count; ++n)
     {
         // Each kind once, then as chance has it.
-        std::size_t const which = static_cast<std::size_t>(n) < kinds.size() ? static_cast<std::size_t>(n) : random() % kinds.size();
+        std::size_t const which =
+            static_cast<std::size_t>(n) < kinds.size() ? static_cast<std::size_t>(n) : random() % kinds.size();
         std::mt19937 own(random());
         Scene scene(own, folder);
         kinds[which].run(scene);

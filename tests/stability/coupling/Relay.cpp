@@ -63,8 +63,7 @@ void Relay::run()
     using namespace std::chrono_literals;
     while (!ending_)
     {
-        std::array<zmq::pollitem_t, 2> items{
-            {{front_.handle(), 0, ZMQ_POLLIN, 0}, {back_.handle(), 0, ZMQ_POLLIN, 0}}};
+        std::array<zmq::pollitem_t, 2> items{{{front_.handle(), 0, ZMQ_POLLIN, 0}, {back_.handle(), 0, ZMQ_POLLIN, 0}}};
         zmq::poll(items.data(), items.size(), 20ms);
         if ((items[0].revents & ZMQ_POLLIN) != 0) pass(front_, back_, true);
         if ((items[1].revents & ZMQ_POLLIN) != 0) pass(back_, front_, false);

@@ -10,9 +10,9 @@
 #include "Figure.hpp"
 #include "Process.hpp"
 #include "ProcessMeters.hpp"
-#include "ServerProcess.hpp"
 #include "SessionScript.hpp"
 #include "Storm.hpp"
+#include "TemporaryFolder.hpp"
 
 namespace gimdem::test
 {

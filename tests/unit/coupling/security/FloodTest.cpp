@@ -26,7 +26,8 @@ double constexpr flat = 32 << 20;
 /// A server in the middle of a run, whose program is at work.
 struct BusyServer
 {
-    explicit BusyServer(std::string const& endpoint) : server(server_options(endpoint)), peer(RawPeer::client(server.endpoint()))
+    explicit BusyServer(std::string const& endpoint)
+        : server(server_options(endpoint)), peer(RawPeer::client(server.endpoint()))
     {
         auto client_side = in_background(
             [&]
