@@ -153,7 +153,8 @@ class Run:
 
     def start_client(self, scratch: parallel.Scratch) -> subprocess.Popen[bytes]:
         assert self.client is not None
-        command = parallel.command(self.client.start_command(self.folder, self.endpoint.address), self.ranks)
+        command = parallel.command(self.client.start_command(self.folder, self.endpoint.address, self.case.keys),
+                                   self.ranks)
         with self.client_log.open("ab") as log:
             return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder,
                          env=scratch.environment(self.client.environment()))

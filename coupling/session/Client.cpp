@@ -61,6 +61,7 @@ struct Client::Impl
     }
 
     ClientOptions options;
+    std::optional<transport::ClientKeys> keys;
     Welcome welcome;
     message::Terms terms;
     session::SharedFields shared;    ///< outlives the messages that lie in it
@@ -83,6 +84,7 @@ Client::Impl::Impl(ClientOptions given)
     session::require_seconds(options.timeout, message::min_timeout, "ClientOptions.timeout");
     session::require_seconds(options.connect_time, 0, "ClientOptions.connect_time");
     session::require_seconds(options.step_time, message::min_timeout, "ClientOptions.step_time");
+    if (!options.keys.empty()) keys = transport::read_client_keys(options.keys);
     if (options.wants.empty()) options.wants = {field::void_fraction, field::drag_coefficient, field::drag_momentum};
     terms.solid = message::choose_solid_fields(options.wants, Fault::user);
 }
@@ -90,7 +92,7 @@ Client::Impl::Impl(ClientOptions given)
 void Client::Impl::connect(FluidProperties const& fluid)
 {
     session.require(Event::connect);
-    session.open(transport::Socket::connect(options.endpoint));
+    session.open(transport::Socket::connect(options.endpoint, keys));
     session.advance(Event::connect);
     shared.want(options.shared_memory && session.is_ipc());
     message::Message hello = message::pack(
@@ -106,7 +108,7 @@ void Client::Impl::connect(FluidProperties const& fluid)
 
     if (!session.wait_for_contact(Clock::now() + ticks(options.connect_time)))
         session.fail(Fault::endpoint, "no server has answered at " + options.endpoint + " within " +
-                                          session::seconds_text(options.connect_time) +
+                                          session::seconds_text(options.connect_time) + session.connection_note() +
                                           " (none runs there, or it is not a gimdem server); start gimdem-server with "
                                           "the same endpoint");
     session::Letter const letter = receive("Welcome");
@@ -124,6 +126,7 @@ void Client::Impl::send_mesh(MeshView const& mesh)
     session.look_for_trouble("the mesh of its program");
     session.advance(Event::send_mesh);
     terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
+    session.limit_arrays(message::field_bytes(terms.solid, terms.cell_count));
     shared.announce(message, message::shared_bytes(terms.fluid, terms.cell_count));
     session.send(std::move(message));
 

@@ -107,7 +107,9 @@ Server::Impl::Impl(ServerOptions given, std::optional<Rank> expected)
     session::require_seconds(options.timeout, message::min_timeout, "ServerOptions.timeout");
     session::require_seconds(options.connect_time, 0, "ServerOptions.connect_time");
     session::require_seconds(options.step_time, message::min_timeout, "ServerOptions.step_time");
-    session.open(transport::Socket::bind(options.endpoint));
+    std::optional<transport::ServerKeys> keys;
+    if (!options.keys.empty()) keys = transport::read_server_keys(options.keys);
+    session.open(transport::Socket::bind(options.endpoint, keys), options.log);
     shared.want(options.shared_memory && session.is_ipc());
 }
 
@@ -142,6 +144,7 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
                 .rank_endpoints = ranks ? ranks->endpoints() : std::vector<std::string>()});
     shared.offer(welcome);
     shared.agree(letter.message);
+    session.limit_arrays(transport::half_of_memory());
     session.send(std::move(welcome));
     ClientInfo info{.name = hello.name,
                     .fluid = hello.fluid,
@@ -204,6 +207,7 @@ Mesh Server::Impl::receive_mesh()
         [&] { return shared.map_announced(letter.message); }));  // first, so that no fault leaves its name behind
     Mesh mesh = session.read([&] { return message::unpack_mesh(letter.message); });
     terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
+    session.limit_arrays(message::field_bytes(terms.fluid, terms.cell_count));
     return mesh;
 }
 

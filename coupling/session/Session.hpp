@@ -2,6 +2,7 @@
 /// What both sides of a session have in common: state, order, and what to say when something goes wrong.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -18,6 +19,9 @@
 
 namespace gimdem::coupling::session
 {
+
+/// Arrays of this size may come at any time; the checks of a message tell more than its size does [byte].
+inline constexpr std::size_t least_limit = std::size_t{1} << 20;
 
 using transport::Role;
 using transport::Time;
@@ -36,8 +40,8 @@ public:
     Session(Session const&) = delete;
     Session& operator=(Session const&) = delete;
 
-    /// Starts to talk over the socket.
-    void open(transport::Socket socket);
+    /// Starts to talk over the socket. log: what the program's user may like to know, told on the I/O thread.
+    void open(transport::Socket socket, std::function<void(std::string const&)> log = {});
 
     State state() const;
     std::string const& endpoint() const { return endpoint_; }
@@ -61,6 +65,9 @@ public:
     /// From now on messages that may be posted go through these; null: they do not.
     void use(std::unique_ptr<transport::Outbox> outbox) { outbox_ = std::move(outbox); }
     void use(std::unique_ptr<transport::Postbox> postbox) { postbox_ = std::move(postbox); }
+
+    /// From now on a message of the peer with more bytes in its arrays is refused unread. It may always have a few.
+    void limit_arrays(std::size_t bytes);
 
     /// The next message, checked against the state table. awaited: what we wait for, in words.
     Letter receive(std::string const& awaited, Time deadline, double patience);
@@ -90,6 +97,8 @@ public:
     std::string our_name() const;
     std::string peer_name() const;
     void set_peer_name(std::string const& name);
+    /// What the connection met with last, " (...)"; empty if nothing.
+    std::string connection_note() const;
 
 private:
     bool is_over() const;
@@ -111,6 +120,7 @@ private:
     std::optional<double> on_frames(transport::Frames frames, Time arrival);
     std::optional<double> on_message(message::Message message, Time arrival);
     transport::Frames on_heartbeat_due() const;
+    void on_note(std::string const& text);
     transport::Frames on_stranger(transport::Frames frames) const;
 
     Role const role_;
@@ -120,13 +130,16 @@ private:
     std::string endpoint_;
     std::string last_fault_;
     double bytes_ = 0;
+    std::atomic<std::size_t> most_array_bytes_{least_limit};
+    std::function<void(std::string const&)> log_;
     std::uint64_t session_number_ = 0;
 
     mutable std::mutex mutex_;  ///< guards what follows
     State state_;
     std::int64_t step_ = 0;
     std::uint64_t progress_ = 0;
-    std::string peer_;                   ///< name
+    std::string peer_;  ///< name
+    std::string connection_note_;
     message::Heartbeat peer_heartbeat_;  ///< the last one
 
     Inbox inbox_;

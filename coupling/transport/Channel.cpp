@@ -17,6 +17,9 @@ using namespace std::chrono_literals;
 auto constexpr probe_time = 500ms;
 auto constexpr probe_interval = 10ms;
 
+/// Read in one turn, so that a flood of messages does not keep us from our heartbeats.
+std::size_t constexpr most_parcels = 256;
+
 }  // namespace
 
 Channel::Channel(Socket socket, double timeout, ChannelHooks hooks)
@@ -89,10 +92,12 @@ void Channel::turn()
 
     // The break is noted before the last messages are read, and reported after them.
     bool const broke = socket_.connection_broke();
+    tell_notes();
     liveness_.turn(Clock::now());
     send_queued();
     receive_all();
     if (broke) handle_broken_connection();
+    if (socket_.was_refused()) end({Ending::Kind::refused, 0, ""});
 
     Time const now = Clock::now();
     if (liveness_.beat_due(now) || now < probe_until_) beat(now);
@@ -111,10 +116,20 @@ void Channel::send_queued()
         if (!lost_ && !socket_.send(peer_, frames)) lose();
 }
 
+void Channel::tell_notes()
+{
+    for (std::string const& text : socket_.take_notes())
+        if (hooks_.note) hooks_.note(text);
+}
+
 void Channel::receive_all()
 {
-    while (auto parcel = socket_.receive())
+    for (std::size_t count = 0; count < most_parcels; ++count)
+    {
+        auto parcel = socket_.receive();
+        if (!parcel) return;
         receive_from(std::move(*parcel), Clock::now());
+    }
 }
 
 void Channel::receive_from(Parcel parcel, Time now)

@@ -32,6 +32,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
     app.add_option("--run", options.run_folder, "folder for the results");
     app.add_flag("--describe", options.describe, "check the case file, print what it says as JSON, and stop");
     app.add_option("--endpoint", options.endpoint, "ipc:///path/socket or tcp://127.0.0.1:port");
+    app.add_option("--keys", options.keys, "folder of keys, made by ./gimdem keys");
     app.add_option("--schedule", options.schedule, "serial, overlapped or iterated")
         ->check(CLI::IsMember({"serial", "overlapped", "iterated"}));
     app.add_option("--until", options.until, "simulated time [s]")->check(CLI::PositiveNumber);
@@ -60,6 +61,7 @@ Case read_case_with(Options const& options)
 {
     Case settings = read_case(options.case_file);
     if (options.endpoint) settings.coupling.endpoint = *options.endpoint;
+    if (options.keys) settings.coupling.keys = std::filesystem::absolute(*options.keys);
     if (options.schedule) settings.coupling.schedule = *options.schedule;
     if (options.until)
     {

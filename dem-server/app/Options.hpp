@@ -19,6 +19,7 @@ struct Options
     std::optional<std::string> endpoint, schedule, device, precision;
     std::optional<double> until;
     std::optional<int> threads;
+    std::optional<std::filesystem::path> keys;     ///< folder, docs/security.md
     std::optional<std::filesystem::path> restart;  ///< checkpoint to go on from
 };
 

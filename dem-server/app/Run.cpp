@@ -275,7 +275,9 @@ void run(Case const& settings, std::filesystem::path const& folder, std::optiona
     coupling::Server server({.endpoint = settings.coupling.endpoint,
                              .name = "gimdem-server " GIMDEM_VERSION,
                              .timeout = settings.coupling.timeout,
-                             .connect_time = settings.coupling.connect_time});
+                             .connect_time = settings.coupling.connect_time,
+                             .keys = settings.coupling.keys,
+                             .log = [](std::string const& text) { fmt::print(stderr, "gimdem-server: {}\n", text); }});
     fmt::print(stderr, "gimdem-server: {} particles, waiting for a client at {}\n", particles.count(),
                server.endpoint());
     try

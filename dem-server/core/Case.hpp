@@ -29,6 +29,7 @@ struct CouplingSettings
 {
     std::string schedule = "serial";  ///< serial | overlapped | iterated
     std::string endpoint = "ipc";     ///< ipc | ipc:///path | tcp://127.0.0.1:port
+    std::filesystem::path keys;       ///< folder; empty: none
     double timeout = 30;              ///< a peer silent for this long is dead [s]
     double connect_time = 120;        ///< wait for the client to appear [s]
     std::int64_t fluid_steps = 1;     ///< equal fluid steps of a coupling step

@@ -59,6 +59,8 @@ Fields<CouplingSettings> const& settings_of(CouplingSettings const&)
                  "step repeated until fluid and particles agree at its end"),
         optional("endpoint",     &S::endpoint,     "", endpoint(), "\"tcp://127.0.0.1:5570\"",
                  "where the solvers meet; ipc is a private socket file"),
+        optional("keys",         &S::keys,         "", anything(), "\"../keys\"",
+                 "folder made by ./gimdem keys: encrypts, and lets the endpoint be of any machine"),
         optional("timeout",      &S::timeout,      "s", above(0), "30.0", "a peer silent for this long is dead"),
         optional("connect_time", &S::connect_time, "s", above(0), "120.0",
                  "how long to wait for the fluid solver to appear"),

@@ -109,6 +109,10 @@ ClientOptions Foam::couplingClient::options
         args.found("endpoint")
       ? args.opt<string>("endpoint")
       : dict.get<string>("endpoint");
+    o.keys =
+        args.found("keys")
+      ? args.opt<string>("keys")
+      : dict.getOrDefault<string>("keys", "");
     o.timeout = dict.getOrDefault<scalar>("timeout", o.timeout);
     o.connect_time = dict.getOrDefault<scalar>("connectTime", o.connect_time);
     o.step_time = dict.getOrDefault<scalar>("stepTime", o.step_time);
@@ -158,6 +162,12 @@ void Foam::couplingClient::addOptions()
         "address",
         "of the server, e.g. tcp://127.0.0.1:5570"
         " (overrides constant/couplingProperties)"
+    );
+    argList::addOption
+    (
+        "keys",
+        "folder",
+        "of keys that the server knows (overrides constant/couplingProperties)"
     );
     argList::addOption
     (

@@ -35,7 +35,7 @@ namespace gimdem::coupling
 
 struct ClientOptions
 {
-    std::string endpoint;              ///< "ipc:///path/socket" or "tcp://127.0.0.1:port"
+    std::string endpoint;              ///< "ipc:///path/socket" or "tcp://127.0.0.1:port", with keys "tcp://host:port"
     std::string name;                  ///< who we are, for messages and logs
     double timeout = 30;               ///< a peer silent for this long is dead [s]
     double connect_time = 60;          ///< how long connect() waits for a server to appear [s]
@@ -45,6 +45,7 @@ struct ClientOptions
     bool shared_memory = true;       ///< over ipc, let large fields travel through shared memory if the server can
     bool iterates = false;           ///< the program calls iterate_step() if the schedule is iterated
     Rank rank;                       ///< of a fluid that several processes solve together
+    std::string keys;                ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
 };
 
 /// The server's answer to Hello.

@@ -19,6 +19,7 @@
 /// the other. Every call waits for all ranks.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +39,9 @@ struct ServerOptions
     double connect_time = 120;  ///< how long to wait for a client [s]
     double step_time = 3600;    ///< longest wait for the next message of a live client [s]
     bool shared_memory = true;  ///< over ipc, let large fields travel through shared memory if the client can
+    std::string keys;           ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
+    /// Told what a user may like to know, such as who was turned away; on another thread, and it must not block.
+    std::function<void(std::string const&)> log;
 };
 
 /// What the case file fixes and the client is told.
@@ -79,7 +83,8 @@ struct FluidState
 class Server
 {
 public:
-    /// Binds at once: Fault::endpoint if the address is taken or not allowed (only ipc and loopback tcp are).
+    /// Binds at once: Fault::endpoint if the address is taken or not allowed (without keys only ipc and loopback tcp
+    /// are).
     explicit Server(ServerOptions options);
     ~Server();
     Server(Server&&) noexcept;
