@@ -59,6 +59,32 @@ TEST(AitkenRelaxation, DoesNotCareAboutUnits)
     EXPECT_NEAR(two.guess(1)[0], 4 / (1 - a) * unit, 1e4 * epsilon * unit);
 }
 
+TEST(AitkenRelaxation, OfSeveralRanksIsThatOfTheWhole)
+{
+    // Two ranks in lockstep: what one adds up, the other does at the same place. Here the other's part is known, as it
+    // is the same as this one's.
+    auto const twice = [](Span<double> numbers)
+    {
+        for (double& number : numbers)
+            number *= 2;
+    };
+    AitkenRelaxation whole(0.5), part(0.5, twice);
+    std::vector<double> const start{1, 2, 1, 2}, half{1, 2};
+    whole.start({start}, 1);
+    part.start({half}, 1);
+    for (int pass = 0; pass < 4; ++pass)
+    {
+        std::vector<double> images, image;
+        for (std::size_t i = 0; i < 4; ++i)
+            images.push_back(std::cos(static_cast<double>(3 + i % 2) * whole.guess(0)[i]));
+        image.assign(images.begin(), images.begin() + 2);
+        EXPECT_NEAR(whole.take({images}), part.take({image}), 1e-12);
+        whole.relax();
+        part.relax();
+        EXPECT_NEAR(whole.guess(0)[1], part.guess(0)[1], 1e-12);
+    }
+}
+
 TEST(AitkenRelaxation, TakesBlocksAlongThatItDoesNotJudge)
 {
     AitkenRelaxation relaxation(0.25);
