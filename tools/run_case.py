@@ -7,7 +7,7 @@ import os
 import signal
 import subprocess
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +38,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--ranks", metavar="N", type=count, default=1, help="processes of the client (1)")
     parser.add_argument("--restart", metavar="FILE",
                         help="go on from a checkpoint, or from the latest of the case: --restart latest")
+    parser.add_argument("--trace", action="store_true", help="write trace.json, which Perfetto opens")
+    parser.add_argument("--trace-steps", metavar="N", type=count, default=1000, help="coupling steps in it (1000)")
+    parser.add_argument("--trace-every", metavar="K", type=positive_count, default=1, help="of every K-th step (1)")
     parser.add_argument("--output", metavar="DIR", help="run folder; must be new or empty (CASE_DIR/runs/NNNN)")
 
 
@@ -51,6 +54,12 @@ def positive(text: str) -> float:
 def count(text: str) -> int:
     if int(text) < 0:
         raise argparse.ArgumentTypeError(f"{text} is negative")
+    return int(text)
+
+
+def positive_count(text: str) -> int:
+    if int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not 1 or more")
     return int(text)
 
 
@@ -85,6 +94,9 @@ def refuse_what_is_to_come(client: str | None, device: str, ranks: int) -> None:
 def check_client(case: CaseDescription, options: argparse.Namespace) -> None:
     if case.client == "none" and options.client:
         raise UserError(f"{shown(case.file)} has no fluid (client = \"none\"); leave out --client", 2)
+    if case.client == "none" and options.trace:
+        raise UserError(f"{shown(case.file)} has no fluid (a trace shows the steps of two programs); leave out --trace",
+                        2)
 
 
 def choose(case: CaseDescription, options: argparse.Namespace) -> CaseDescription:
@@ -111,6 +123,7 @@ class Run:
     endpoint: Endpoint
     threads: int | None
     restart: Restart | None = None
+    trace: list[str] = field(default_factory=list)  # options of the server
 
     @property
     def client_log(self) -> Path:
@@ -139,18 +152,21 @@ class Run:
             command += ["--threads", str(self.threads)]
         if self.restart:
             command += ["--restart", str(self.restart.checkpoint)]
+        command += self.trace
         with self.server_log.open("ab") as log:
             return spawn(command, stdout=log, stderr=stderr)
 
     def start_client(self) -> subprocess.Popen[bytes]:
         command = [str(openfoam_client_binary()), "-case", str(self.folder), "-endpoint", self.endpoint.address]
+        environment = {**openfoam.environment(), "GIMDEM_CLIENT_LOG": str(self.folder / "log.client.jsonl")}
         with self.client_log.open("ab") as log:
-            return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder, env=openfoam.environment())
+            return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder, env=environment)
 
 
 def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: Endpoint) -> int:
     restart = find_restart(case, options.restart)
-    run = Run(case, make_run_folder(case, options.output), endpoint, options.threads, restart)
+    run = Run(case, make_run_folder(case, options.output), endpoint, options.threads, restart,
+              trace_options(options))
     alone = case.client == "none"
     what = "particles alone" if alone else f"grid {case.grid or 'as it is'}, {case.schedule}"
     say("case", case.title)
@@ -174,6 +190,12 @@ def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: 
     if outcome.signal:
         say("stopped", f"by {signal.Signals(outcome.signal).name}, before the end")
     return exit_code(outcome)
+
+
+def trace_options(options: argparse.Namespace) -> list[str]:
+    if not options.trace:
+        return []
+    return ["--trace-steps", str(options.trace_steps), "--trace-every", str(options.trace_every)]
 
 
 def make_mesh(case: CaseDescription, folder: Path) -> str:

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "message/ClockMessages.hpp"
+
 namespace gimdem::coupling::message
 {
 namespace
@@ -118,6 +120,11 @@ FluidState unpack_fluid_state(Message const& message, Terms const& terms)
     state.previous = unpack_timings(body.previous());
     state.exchange = body.exchange();
     state.waiting = body.waiting();
+    if (body.has_previous_times())
+    {
+        state.previous_times = unpack_times(body.previous_times());
+        state.clock = unpack_offset(body.previous_times());
+    }
     return state;
 }
 

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "gimdem/coupling/Status.hpp"
 #include "message/Greeting.hpp"
 #include "message/MeshMessage.hpp"
 #include "message/StepMessages.hpp"
+#include "session/ClientRecord.hpp"
 #include "session/ExchangeClock.hpp"
 #include "session/Options.hpp"
 #include "session/Session.hpp"
@@ -52,6 +54,7 @@ struct Client::Impl
         catch (CouplingError const& error)
         {
             session.note(error.what());
+            record.log().write(LogLevel::error, "fault", error.what());
             throw;
         }
     }
@@ -65,6 +68,8 @@ struct Client::Impl
     Timings previous;  ///< of the last fluid step
     std::int64_t step = 0;
     session::ExchangeClock clock;
+    session::ClientRecord record;
+    Time fluid_sent;  ///< of this step
     session::Session session;
 };
 
@@ -88,6 +93,8 @@ void Client::Impl::connect(FluidProperties const& fluid)
     message::Message hello =
         message::pack(message::Hello{options.name, fluid, options.wants, options.schedule, options.timeout});
     shared.offer(hello);
+    record.stamp(hello);
+    Time const hello_sent = Clock::now();
     session.send(std::move(hello));
 
     if (!session.wait_for_contact(Clock::now() + ticks(options.connect_time)))
@@ -99,7 +106,14 @@ void Client::Impl::connect(FluidProperties const& fluid)
     welcome = session.read([&] { return message::unpack_welcome(letter.message); });
     session.set_peer_name(welcome.server);
     shared.agree(letter.message);
+    session.read([&] { record.heard(letter.message, hello_sent, letter.arrival); });
     terms.fluid = session.read([&] { return message::choose_fluid_fields(welcome.needs, Fault::protocol); });
+    record.log().write(LogLevel::info, "connected", "connected to " + welcome.server,
+                       {{"endpoint", options.endpoint},
+                        {"title", welcome.title},
+                        {"schedule", is_serial() ? "serial" : "overlapped"},
+                        {"clock_offset_s", record.offset() ? record.offset()->offset : not_known},
+                        {"clock_uncertainty_s", record.offset() ? record.offset()->uncertainty : not_known}});
 }
 
 void Client::Impl::send_mesh(MeshView const& mesh)
@@ -117,6 +131,8 @@ void Client::Impl::send_mesh(MeshView const& mesh)
     session.use(shared.use_if_confirmed(letter.message, terms.memory));
     session.use(session.read([&] { return shared.map_announced(letter.message); }));
     take_solid();
+    record.log().write(LogLevel::info, "mesh_accepted", "the server holds the mesh",
+                       {{"cells", static_cast<double>(mesh.cell_count)}});
 }
 
 void Client::Impl::begin_step(Step const& next, FluidFields const& fluid, std::vector<Monitor> const& monitors)
@@ -129,6 +145,7 @@ void Client::Impl::begin_step(Step const& next, FluidFields const& fluid, std::v
     message::Message message =
         message::lay_out(FluidState{next, fluid, monitors, previous, so_far.exchange, so_far.waiting}, terms);
     shared.confirm(message);
+    record.put_into_fluid(message);
     session.prepare(message);
     session.look_for_trouble("the fluid of its program");
     step = next.number;
@@ -136,11 +153,16 @@ void Client::Impl::begin_step(Step const& next, FluidFields const& fluid, std::v
     session.advance(call);
     session.send(std::move(message));
     terms.memory.message_sent();
-    clock.sent(entered, Clock::now());
+    fluid_sent = Clock::now();
+    clock.sent(entered, fluid_sent);
+    record.began(step, entered, fluid_sent);
 
     if (!is_serial()) return;
-    take_solid();
-    clock.answered_serial(Clock::now(), solid.busy_time);
+    Time const arrival = take_solid();
+    Time const left = Clock::now();
+    double const waiting = clock.answered_serial(left, solid.busy_time);
+    record.began(step, entered, left);
+    record.waited_in_begin(fluid_sent, arrival, waiting);
 }
 
 void Client::Impl::end_step(Timings const& timings)
@@ -150,16 +172,24 @@ void Client::Impl::end_step(Timings const& timings)
     session.advance(Event::end_step);
     previous = timings;
 
-    if (is_serial()) return;
+    if (is_serial()) return record.ended(entered, Clock::now(), 0);
     Time const arrival = take_solid();
-    clock.answered_overlapped(entered, arrival, Clock::now(), solid.busy_time);
+    Time const left = Clock::now();
+    record.ended(entered, left, clock.answered_overlapped(entered, arrival, left, solid.busy_time));
 }
 
 void Client::Impl::finish(std::string const& reason)
 {
     session.require(Event::finish);
     bool const greeted = session.state() != State::created && session.state() != State::finished;
-    if (greeted) session.send(message::pack_goodbye(reason));
+    message::Message goodbye = message::pack_goodbye(reason);
+    record.put_into_goodbye(goodbye, previous);
+    if (greeted) session.send(std::move(goodbye));
+    record.log().write(LogLevel::info, "finished", reason,
+                       {{"steps", static_cast<double>(step)},
+                        {"exchange_s", clock.times().exchange},
+                        {"waiting_s", clock.times().waiting},
+                        {"bytes", clock.times().bytes}});
     session.advance(Event::finish);
     session.close();
 }
@@ -179,6 +209,7 @@ Time Client::Impl::take_solid()
                                           "); the two programs do not fit together, see docs/protocol.md");
     session.read([&] { shared.attach(letter.message); });
     solid = session.read([&] { return message::unpack_solid_state(letter.message, terms); });
+    session.read([&] { record.heard(letter.message, fluid_sent, letter.arrival); });
     solid_message = std::move(letter.message);
     return letter.arrival;
 }
@@ -217,6 +248,7 @@ void Client::finish(std::string const& reason)
 
 void Client::abort(std::string const& reason) noexcept
 {
+    impl_->record.log().write(LogLevel::error, "aborted", reason);
     impl_->session.abort(Fault::user, reason);
 }
 

@@ -49,6 +49,8 @@ void Session::open(transport::Socket socket)
     hooks.may_open = [this](transport::Frame const& first)
     { return role_ == Role::client || message::may_open(message::peek_kind(first)); };
     hooks.answer_stranger = [this](transport::Frames frames) { return on_stranger(std::move(frames)); };
+    if (role_ == Role::server)
+        hooks.answer_question = [this](transport::Frames& frames) { return on_question(frames); };
     hooks.ended = [this](transport::Ending ending) { inbox_.end(std::move(ending)); };
     endpoint_ = socket.endpoint();
     channel_ = std::make_unique<transport::Channel>(std::move(socket), timeout_, std::move(hooks));
@@ -78,6 +80,7 @@ void Session::advance(Event event)
 {
     std::lock_guard<std::mutex> const lock(mutex_);
     state_ = next_state(rules_, state_, event).value_or(State::failed);
+    state_since_ = transport::Clock::now();
     ++progress_;
 }
 

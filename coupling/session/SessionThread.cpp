@@ -14,6 +14,10 @@ using message::Message;
 
 std::optional<double> Session::on_frames(transport::Frames frames, Time arrival)
 {
+    {
+        std::lock_guard<std::mutex> const lock(mutex_);
+        heard_ = arrival;
+    }
     try
     {
         return on_message(message::decode(std::move(frames)), arrival);

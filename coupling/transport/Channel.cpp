@@ -17,6 +17,9 @@ using namespace std::chrono_literals;
 auto constexpr probe_time = 500ms;
 auto constexpr probe_interval = 10ms;
 
+/// Messages that are read before heartbeats and what is to be sent have their turn again, whatever strangers send.
+int constexpr messages_per_turn = 64;
+
 }  // namespace
 
 Channel::Channel(Socket socket, double timeout, ChannelHooks hooks)
@@ -91,7 +94,7 @@ void Channel::turn()
     bool const broke = socket_.connection_broke();
     liveness_.turn(Clock::now());
     send_queued();
-    receive_all();
+    receive_some();
     if (broke) handle_broken_connection();
 
     Time const now = Clock::now();
@@ -117,8 +120,27 @@ void Channel::receive_all()
         receive_from(std::move(*parcel), Clock::now());
 }
 
+void Channel::receive_some()
+{
+    for (int k = 0; k < messages_per_turn; ++k)
+    {
+        auto parcel = socket_.receive();
+        if (!parcel) return;
+        receive_from(std::move(*parcel), Clock::now());
+    }
+}
+
+bool Channel::answer_question(Parcel& parcel)
+{
+    if (!hooks_.answer_question) return false;
+    auto answer = hooks_.answer_question(parcel.frames);
+    if (answer && !answer->empty()) socket_.send(parcel.sender, *answer);
+    return answer.has_value();
+}
+
 void Channel::receive_from(Parcel parcel, Time now)
 {
+    if (answer_question(parcel)) return;
     if (!liveness_.has_contact())
     {
         if (parcel.frames.empty() || !hooks_.may_open(parcel.frames.front())) return;

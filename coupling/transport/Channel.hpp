@@ -41,6 +41,9 @@ struct ChannelHooks
     std::function<bool(Frame const&)> may_open;
     /// Someone other than the peer sent this to the server. Returns the answer, or nothing.
     std::function<Frames(Frames)> answer_stranger;
+    /// Anybody, who does not become the peer by this, may ask something of the server. Returns the answer, which may be
+    /// empty, if this is a question; else leaves the frames as they are. Null: nobody may ask.
+    std::function<std::optional<Frames>(Frames&)> answer_question;
     /// Nothing more will come. Called once.
     std::function<void(Ending)> ended;
 };
@@ -70,6 +73,8 @@ private:
     void turn();
     void send_queued();
     void receive_all();
+    void receive_some();
+    bool answer_question(Parcel& parcel);
     void receive_from(Parcel parcel, Time now);
     void handle_broken_connection();
     void beat(Time now);

@@ -2,7 +2,6 @@
 #include "app/RunLog.hpp"
 
 #include <iostream>
-#include <limits>
 
 #include "app/LogParts.hpp"
 
@@ -13,13 +12,6 @@ namespace
 {
 
 using Clock = std::chrono::steady_clock;
-
-double monitor(coupling::FluidState const& fluid, std::string const& name)
-{
-    for (coupling::Monitor const& m : fluid.monitors)
-        if (m.name == name) return m.value;
-    return std::numeric_limits<double>::quiet_NaN();
-}
 
 }  // namespace
 

@@ -21,6 +21,8 @@
 #include <vector>
 
 #include "gimdem/coupling/Error.hpp"
+#include "gimdem/coupling/Status.hpp"
+#include "gimdem/coupling/StepTimes.hpp"
 #include "gimdem/coupling/Types.hpp"
 
 namespace gimdem::coupling
@@ -34,6 +36,7 @@ struct ServerOptions
     double connect_time = 120;  ///< how long to wait for a client [s]
     double step_time = 3600;    ///< longest wait for the next message of a live client [s]
     bool shared_memory = true;  ///< over ipc, let large fields travel through shared memory if the client can
+    double clock_origin = 0;    ///< when the run began, by clock_now() [s]; 0: now
 };
 
 /// What the case file fixes and the client is told.
@@ -61,9 +64,11 @@ struct FluidState
     Step step;
     FluidFields fields;
     std::vector<Monitor> monitors;
-    Timings previous;     ///< how long the client's previous step took
-    double exchange = 0;  ///< the client's sum of exchange time so far [s]
-    double waiting = 0;   ///< the client's sum of waiting so far [s]
+    Timings previous;                                 ///< how long the client's previous step took
+    double exchange = 0;                              ///< the client's sum of exchange time so far [s]
+    double waiting = 0;                               ///< the client's sum of waiting so far [s]
+    ClientTimes previous_times = {};                  ///< when the client's previous step did what; step 0: not told
+    std::optional<ClockOffset> clock = std::nullopt;  ///< by the client's latest estimate
 };
 
 class Server
@@ -103,6 +108,14 @@ public:
 
     /// Ask the client for an orderly end (Ctrl-C here): the next solid carries the reason, Client::stop_request().
     void request_stop(std::string const& reason);
+
+    /// When the last step did what; its answer is that of the step before until send_solid().
+    ServerTimes const& step_times() const;
+    /// After Goodbye, if the client tells it.
+    std::optional<LastClientStep> const& last_client_step() const;
+
+    /// What query_status() answers from now on; cheap enough for every step.
+    void publish(RunStatus run);
 
     /// Bytes received and sent so far, through shared memory too.
     double bytes() const;
