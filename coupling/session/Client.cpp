@@ -248,7 +248,14 @@ void Client::finish(std::string const& reason)
 
 void Client::abort(std::string const& reason) noexcept
 {
-    impl_->record.log().write(LogLevel::error, "aborted", reason);
+    try
+    {
+        impl_->record.log().write(LogLevel::error, "aborted", reason);
+    }
+    catch (std::exception const&)
+    {
+        // The log is of no use to a program that is out of memory.
+    }
     impl_->session.abort(Fault::user, reason);
 }
 

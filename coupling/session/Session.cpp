@@ -84,6 +84,12 @@ void Session::advance(Event event)
     ++progress_;
 }
 
+void Session::note_heard(Time arrival)
+{
+    std::lock_guard<std::mutex> const lock(mutex_);
+    heard_ = std::max(heard_.value_or(arrival), arrival);
+}
+
 void Session::set_step(std::int64_t step)
 {
     std::lock_guard<std::mutex> const lock(mutex_);
@@ -152,6 +158,7 @@ Letter Session::receive(std::string const& awaited, Time deadline, double patien
     Message const& message = delivery.letter->message;
     bytes_ += static_cast<double>(message.envelope.ByteSizeLong() + message::array_bytes(message));
     advance(*event_of(message.kind()));
+    note_heard(delivery.letter->arrival);
     return std::move(*delivery.letter);
 }
 

@@ -95,6 +95,7 @@ private:
     Delivery next_letter(Time deadline);
     std::optional<Letter> take_post();
     void stamp(message::Message& message) const;
+    void note_heard(Time arrival);
     void fall(std::string const& why);
     void tell(Fault fault, std::string const& reason);
     void check_letter(Letter const& letter, std::string const& awaited);

@@ -14,10 +14,7 @@ using message::Message;
 
 std::optional<double> Session::on_frames(transport::Frames frames, Time arrival)
 {
-    {
-        std::lock_guard<std::mutex> const lock(mutex_);
-        heard_ = arrival;
-    }
+    note_heard(arrival);
     try
     {
         return on_message(message::decode(std::move(frames)), arrival);
