@@ -17,8 +17,8 @@ using namespace std::chrono_literals;
 auto constexpr probe_time = 500ms;
 auto constexpr probe_interval = 10ms;
 
-/// Read in one turn, so that a flood of messages does not keep us from our heartbeats.
-std::size_t constexpr most_parcels = 256;
+/// Messages that are read before heartbeats and what is to be sent have their turn again, whatever strangers send.
+int constexpr messages_per_turn = 64;
 
 }  // namespace
 
@@ -95,7 +95,7 @@ void Channel::turn()
     tell_notes();
     liveness_.turn(Clock::now());
     send_queued();
-    receive_all();
+    receive_some();
     if (broke) handle_broken_connection();
     if (socket_.was_refused()) end({Ending::Kind::refused, 0, ""});
 
@@ -122,9 +122,9 @@ void Channel::tell_notes()
         if (hooks_.note) hooks_.note(text);
 }
 
-void Channel::receive_all()
+void Channel::receive_some()
 {
-    for (std::size_t count = 0; count < most_parcels; ++count)
+    for (int k = 0; k < messages_per_turn; ++k)
     {
         auto parcel = socket_.receive();
         if (!parcel) return;
@@ -132,8 +132,17 @@ void Channel::receive_all()
     }
 }
 
+bool Channel::answer_question(Parcel& parcel)
+{
+    if (!hooks_.answer_question) return false;
+    auto answer = hooks_.answer_question(parcel.frames);
+    if (answer && !answer->empty()) socket_.send(parcel.sender, *answer);
+    return answer.has_value();
+}
+
 void Channel::receive_from(Parcel parcel, Time now)
 {
+    if (answer_question(parcel)) return;
     if (!liveness_.has_contact())
     {
         if (parcel.frames.empty() || !hooks_.may_open(parcel.frames.front())) return;
