@@ -197,13 +197,13 @@ void Client::Impl::send_fluid(Event call, FluidState const& fluid, Time entered)
     terms.memory.message_sent();
     fluid_sent = Clock::now();
     clock.sent(entered, fluid_sent);
-    record.began(step, entered, fluid_sent);
+    record.began(step.number, entered, fluid_sent);
 
     if (overlaps()) return;
     Time const arrival = take_solid();
     Time const left = Clock::now();
     double const waiting = clock.answered_serial(left, solid.busy_time);
-    record.began(step, entered, left);
+    record.began(step.number, entered, left);
     record.waited_in_begin(fluid_sent, arrival, waiting);
 }
 
@@ -229,7 +229,7 @@ void Client::Impl::finish(std::string const& reason)
     record.put_into_goodbye(goodbye, previous);
     if (greeted) session.send(std::move(goodbye));
     record.log().write(LogLevel::info, "finished", reason,
-                       {{"steps", static_cast<double>(step)},
+                       {{"steps", static_cast<double>(step.number)},
                         {"exchange_s", clock.times().exchange},
                         {"waiting_s", clock.times().waiting},
                         {"bytes", clock.times().bytes}});

@@ -19,6 +19,8 @@ auto constexpr probe_interval = 10ms;
 
 /// Messages that are read before heartbeats and what is to be sent have their turn again, whatever strangers send.
 int constexpr messages_per_turn = 64;
+/// Read before the end, in search of the last words of the peer.
+int constexpr last_messages = 1024;
 
 }  // namespace
 
@@ -95,7 +97,7 @@ void Channel::turn()
     tell_notes();
     liveness_.turn(Clock::now());
     send_queued();
-    receive_some();
+    receive_some(messages_per_turn);
     if (broke) handle_broken_connection();
     if (socket_.was_refused()) end({Ending::Kind::refused, 0, ""});
 
@@ -122,9 +124,9 @@ void Channel::tell_notes()
         if (hooks_.note) hooks_.note(text);
 }
 
-void Channel::receive_some()
+void Channel::receive_some(int most)
 {
-    for (int k = 0; k < messages_per_turn; ++k)
+    for (int k = 0; k < most; ++k)
     {
         auto parcel = socket_.receive();
         if (!parcel) return;
@@ -178,7 +180,7 @@ void Channel::beat(Time now)
 void Channel::lose()
 {
     lost_ = true;
-    receive_all();  // the last words of the peer, which may explain it
+    receive_some(last_messages);  // the last words of the peer, which may explain it
     end({});
 }
 

@@ -76,7 +76,7 @@ private:
     void turn();
     void send_queued();
     void tell_notes();
-    void receive_some();
+    void receive_some(int most);
     bool answer_question(Parcel& parcel);
     void receive_from(Parcel parcel, Time now);
     void handle_broken_connection();
