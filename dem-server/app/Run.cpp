@@ -51,11 +51,12 @@ coupling::ServerTerms terms_of(Case const& settings)
             .needs = needed_fields(settings)};
 }
 
-/// With both solvers at work at once, one core is the client's.
-exec::Execution execution_for(Case const& settings, coupling::Schedule schedule)
+/// With both solvers at work at once, each of the client's ranks has a core.
+exec::Execution execution_for(Case const& settings, coupling::Schedule schedule, int ranks)
 {
     int threads = settings.dem.threads;
-    if (threads == 0 && schedule == coupling::Schedule::overlapped) threads = std::max(1, exec::processor_count() - 1);
+    if (threads == 0 && schedule == coupling::Schedule::overlapped)
+        threads = std::max(1, exec::processor_count() - ranks);
     return exec::make_execution(settings.dem.backend, threads, settings.dem.sorting);
 }
 
@@ -105,7 +106,7 @@ public:
         : settings_(settings),
           server_(server),
           schedule_(client.schedule.value_or(terms_of(settings).schedule)),
-          execution_(execution_for(settings, schedule_)),
+          execution_(execution_for(settings, schedule_, client.ranks)),
           mesh_(take_mesh(server)),
           walls_(mesh_, settings.walls.also, reach_of(settings, particles), settings.wall),
           inlets_(make_inlets(settings, materials)),
