@@ -66,11 +66,12 @@ coupling::ServerTerms terms_of(Case const& settings)
                           .must_converge = how.must_converge}};
 }
 
-/// With both solvers at work at once, one core is the client's.
-exec::Execution execution_for(Case const& settings, coupling::Schedule schedule)
+/// With both solvers at work at once, each of the client's ranks has a core.
+exec::Execution execution_for(Case const& settings, coupling::Schedule schedule, int ranks)
 {
     int threads = settings.dem.threads;
-    if (threads == 0 && schedule == coupling::Schedule::overlapped) threads = std::max(1, exec::processor_count() - 1);
+    if (threads == 0 && schedule == coupling::Schedule::overlapped)
+        threads = std::max(1, exec::processor_count() - ranks);
     return exec::make_execution(settings.dem.backend, threads, settings.dem.sorting);
 }
 
@@ -124,7 +125,7 @@ public:
           events_(events),
           schedule_(client.schedule.value_or(terms_of(settings).schedule)),
           observer_(settings, folder, server, events, client.name, schedule_, trace),
-          execution_(execution_for(settings, schedule_)),
+          execution_(execution_for(settings, schedule_, client.ranks)),
           mesh_(take_mesh(server)),
           walls_(mesh_, settings.walls.also, reach_of(settings, particles), settings.wall),
           inlets_(make_inlets(settings, materials)),
