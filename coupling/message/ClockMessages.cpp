@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "message/ClockMessages.hpp"
 
+#include <algorithm>
 #include <fstream>
-#include <functional>
 #include <limits>
 #include <string>
 
@@ -41,7 +41,8 @@ std::uint64_t machine_number()
 {
     std::string id;
     std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), id);
-    return id.empty() ? 0 : std::hash<std::string>()(id);
+    id.erase(std::remove(id.begin(), id.end(), '-'), id.end());
+    return id.size() < 16 ? 0 : std::stoull(id.substr(0, 16), nullptr, 16);
 }
 
 void put(ClockReading const& reading, Message& message)

@@ -20,7 +20,7 @@ struct ClockReading
     std::uint64_t machine = 0;  ///< 0: not known
 };
 
-/// A number that processes of one machine share until its next start; 0 if the system tells none.
+/// The first 64 bits of the boot id, which processes of one machine share until its next start; 0 if there is none.
 std::uint64_t machine_number();
 
 /// Into Hello, Welcome or SolidState.

@@ -93,8 +93,11 @@ TEST_P(StepTimesOf, BothSidesFitTogether)
         EXPECT_GE(at.ended, at.resumed + 0.002) << "the fluid step slept so long";
         EXPECT_GE(at.closed, at.ended);
         EXPECT_LT(at.closed, after);
-        EXPECT_GE(at.wait_from, is_serial() ? at.begun : at.ended);
-        EXPECT_LE(at.wait_to, is_serial() ? at.resumed : at.closed);
+        if (at.wait_to > at.wait_from)
+        {
+            EXPECT_GE(at.wait_from, is_serial() ? at.begun : at.ended);
+            EXPECT_LE(at.wait_to, is_serial() ? at.resumed : at.closed);
+        }
         waiting += at.wait_to - at.wait_from;
         calls += at.resumed - at.begun + (is_serial() ? 0 : at.closed - at.ended);
 
