@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <vector>
+#include <numbers>
 
 #include "exec/ForEach.hpp"
 #include "mapping/TabulatedIntegral.hpp"
@@ -87,31 +86,18 @@ struct MakeKernel
     void operator()(std::int64_t i) const
     {
         std::int64_t const pair = missing[i];
-        Quad const& of = cell[pair % cell_count];
-        CurveMaker const maker(radii[pair / cell_count], of.w, fixed_coefficient);
         std::int32_t const place = first + static_cast<std::int32_t>(i);
-        curve_of[pair] = maker.make(curves[place], of) < CellCurves::error_bound ? place : too_coarse;
+        double const error =
+            make_curve(curves[place], radii[pair / cell_count], cell[pair % cell_count], fixed_coefficient);
+        curve_of[pair] = 2 * error < CellCurves::error_bound ? place : too_coarse;
     }
 };
 
 }  // namespace
 
-CellCurves::CellCurves(PolyMesh const& mesh, double fixed_coefficient)
-    : mesh_(mesh), fixed_coefficient_(fixed_coefficient), order_(mesh.cell_count())
+double make_curve(CellCurve& curve, double radius, Quad const& cell, double fixed_coefficient)
 {
-    // Numbers of small cubes of a box around the mesh, the bits of the three axes by turns.
-    std::vector<std::uint32_t> key(static_cast<std::size_t>(mesh.cell_count()));
-    double const per_cube = 1023 / (mesh.high() - mesh.low()).maxCoeff();
-    for (std::int32_t c = 0; c < mesh.cell_count(); ++c)
-    {
-        Vec3 const at = (mesh.centroid(c) - mesh.low()) * per_cube;
-        for (int bit = 0; bit < 10; ++bit)
-            for (int axis = 0; axis < 3; ++axis)
-                key[static_cast<std::size_t>(c)] |= (static_cast<std::uint32_t>(std::max(0.0, at[axis])) >> bit & 1u)
-                                                    << (3 * bit + axis);
-    }
-    std::iota(order_.host().begin(), order_.host().end(), 0);
-    std::ranges::stable_sort(order_.host(), {}, [&](std::int32_t c) { return key[static_cast<std::size_t>(c)]; });
+    return CurveMaker(radius, cell.w, fixed_coefficient).make(curve, cell);
 }
 
 bool CellCurves::provide(WeightTask const& task)
@@ -119,16 +105,13 @@ bool CellCurves::provide(WeightTask const& task)
     usable_ = usable_ && add_radii(task.particles);
     if (!usable_) return false;
     list_missing(task);
-    occupied_.resize(task.occupied.size());
-    std::ranges::copy_if(order_.host(), occupied_.host().begin(), [&](std::int32_t c)
-                         { return task.rows.particle_offsets[c + 1] > task.rows.particle_offsets[c]; });
     if (missing_.size() == 0) return true;
     std::int64_t const first = curves_.size();
     curves_.resize(first + missing_.size());
-    exec::for_each_uneven(task.execution, missing_.size(),
-                          MakeKernel{missing_.view().data, mesh_.cell_count(), radii_.view().data, mesh_.view().cell,
-                                     fixed_coefficient_, static_cast<std::int32_t>(first), too_coarse,
-                                     curves_.view().data, curve_of_.view().data});
+    exec::for_each_uneven(
+        task.execution, missing_.size(),
+        MakeKernel{missing_.view().data, mesh_.cell_count(), radii_.view().data, mesh_.view().cell, fixed_coefficient_,
+                   static_cast<std::int32_t>(first), too_coarse, curves_.view().data, curve_of_.view().data});
     return true;
 }
 

@@ -30,6 +30,11 @@ struct CellCurvesView
     }
 };
 
+/// Makes the curve of one radius and one cell; returns the largest error of I / V_p against the closed form where
+/// it is checked; it is taken if that is less than half of CellCurves::error_bound.
+/// fixed_coefficient: phi; 0: that of Eq. 27.
+double make_curve(CellCurve& curve, double radius, Quad const& cell, double fixed_coefficient);
+
 class CellCurves
 {
 public:
@@ -41,15 +46,16 @@ public:
     static constexpr double error_bound = 1e-11;
 
     /// fixed_coefficient: phi of all pairs; 0: that of Eq. 27.
-    explicit CellCurves(PolyMesh const& mesh, double fixed_coefficient = 0);
+    explicit CellCurves(PolyMesh const& mesh, double fixed_coefficient = 0)
+        : mesh_(mesh), fixed_coefficient_(fixed_coefficient)
+    {
+    }
 
     /// Sees to curves for all radii and all candidates of the occupied cells. False where there are none: too many
     /// radii, or radii and cells.
     bool provide(WeightTask const& task);
 
     CellCurvesView view() const;
-    /// The cells of the last task in an order in which cells near to each other follow each other: they share curves.
-    exec::Buffer<std::int32_t> const& occupied() const { return occupied_; }
 
 private:
     static constexpr std::int32_t not_made = -1, too_coarse = -2;
@@ -60,13 +66,11 @@ private:
     PolyMesh const& mesh_;
     double fixed_coefficient_;
     bool usable_ = true;
-    exec::Buffer<std::int32_t> order_;  ///< of all cells
-    exec::Buffer<std::int32_t> occupied_;
     exec::Buffer<double> radii_;
-    exec::Buffer<std::uint8_t> seen_;       ///< 1 for cells whose candidates have all curves
-    exec::Buffer<std::int32_t> curve_of_;   ///< as the view's, or one of the two above
+    exec::Buffer<std::uint8_t> seen_;      ///< 1 for cells whose candidates have all curves
+    exec::Buffer<std::int32_t> curve_of_;  ///< as the view's, or one of the two above
     exec::Buffer<CellCurve> curves_;
-    exec::Buffer<std::int64_t> missing_;    ///< pairs, places in curve_of_
+    exec::Buffer<std::int64_t> missing_;  ///< pairs, places in curve_of_
 };
 
 }  // namespace gimdem

@@ -36,13 +36,27 @@ struct CurveKernel
 
 private:
     using Octet = exec::Octet;
+    using Octets = exec::OctetOfQuads;
 
     /// Some particles of one cell and one radius.
     struct Some
     {
+        static constexpr int most = 64;
+
         int count = 0;
-        std::int32_t particle[exec::octet];
-        double* to[exec::octet];  ///< their rows
+        std::int32_t particle[most];
+        double* to[most];  ///< their rows
+
+        /// In the lanes of the last eight that have no particle the first one is repeated.
+        int load(Quad const* position, Octets* at)
+        {
+            int const octets = (count + exec::octet - 1) / exec::octet;
+            for (int k = count; k < exec::octet * octets; ++k)
+                particle[k] = particle[0];
+            for (int e = 0; e < octets; ++e)
+                at[e] = exec::load(position, particle + exec::octet * e);
+            return octets;
+        }
     };
 
     /// Rows of a cell's particles of one radius.
@@ -57,7 +71,7 @@ private:
             if (position[p].w != curves.radii[row]) continue;
             some.particle[some.count] = p;
             some.to[some.count++] = w;
-            if (some.count < exec::octet) continue;
+            if (some.count < Some::most) continue;
             fill(c, row, some);
             some.count = 0;
         }
@@ -68,49 +82,47 @@ private:
     {
         std::int32_t const* const candidates = rows.layer_cells + rows.layer_offsets[c];
         int const length = rows.length(c);
-        for (int lane = some.count; lane < exec::octet; ++lane)
-            some.particle[lane] = some.particle[0];
-        exec::OctetOfQuads const at = exec::load(position, some.particle);
-        std::int32_t without[CandidateCentres::most];
-        int without_count = 0;
+        Octets at[Some::most / exec::octet];
+        int const octets = some.load(position, at);
         for (int k = 0; k < length; k += exec::octet)
         {
+            CellCurve const* of[exec::octet];
             int const lanes = lanes_left(length, k);
-            Octet values[exec::octet];
-            for (int j = 0; j < exec::octet; ++j)
+            bool all = true;
+            for (int j = 0; j < lanes; ++j)
             {
-                values[j] = Octet::Constant(0);
-                if (j >= lanes) continue;
-                CellCurve const* const curve = curves.find(row, candidates[k + j]);
-                if (curve == nullptr)
-                    without[without_count++] = k + j;
-                else
-                    values[j] = (*curve)(at);
+                of[j] = curves.find(row, candidates[k + j]);
+                all = all && of[j] != nullptr;
             }
-            exec::transpose(values);
-            for (int lane = 0; lane < some.count; ++lane)
-                exec::store_first(values[lane], lanes, some.to[lane] + k);
-            if (without_count + exec::octet <= CandidateCentres::most && k + exec::octet < length) continue;
-            if (without_count > 0) fill_by_closed_form(candidates, without, without_count, some);
-            without_count = 0;
+            for (int e = 0; e < octets; ++e)
+                fill(of, lanes, at[e], some, exec::octet * e, k);
+            if (!all) fill_by_closed_form(of, candidates + k, lanes, some, k);
         }
     }
 
-    /// At these places of the rows.
-    void fill_by_closed_form(std::int32_t const* candidates, std::int32_t const* places, int count,
-                             Some const& some) const
+    /// Eight particles, from the given one on, with up to eight candidates, at place k of the rows.
+    static void fill(CellCurve const* const* of, int lanes, Octets const& at, Some const& some, int particle, int k)
     {
-        std::int32_t cells[CandidateCentres::most];
-        for (int k = 0; k < count; ++k)
-            cells[k] = candidates[places[k]];
-        CandidateCentres const at(cell, cells, count);
+        Octet values[exec::octet];
+        for (int j = 0; j < exec::octet; ++j)
+            values[j] = j < lanes && of[j] != nullptr ? (*of[j])(at) : Octet::Constant(0);
+        exec::transpose(values);
+        for (int lane = 0; lane < exec::octet && particle + lane < some.count; ++lane)
+            exec::store_first(values[lane], lanes, some.to[particle + lane] + k);
+    }
+
+    /// Those of up to eight candidates that have no curve.
+    void fill_by_closed_form(CellCurve const* const* of, std::int32_t const* candidates, int lanes, Some const& some,
+                             int k) const
+    {
+        CandidateCentres const at(cell, candidates, lanes);
         ClosedFormIntegrals const integrals(sizes, at);
-        double values[CandidateCentres::most];
-        for (int lane = 0; lane < some.count; ++lane)
+        double values[exec::octet];
+        for (int m = 0; m < some.count; ++m)
         {
-            integrals(position[some.particle[lane]], values);
-            for (int k = 0; k < count; ++k)
-                some.to[lane][places[k]] = values[k];
+            integrals(position[some.particle[m]], values);
+            for (int j = 0; j < lanes; ++j)
+                if (of[j] == nullptr) some.to[m][k + j] = values[j];
         }
     }
 };

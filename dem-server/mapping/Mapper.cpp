@@ -9,6 +9,7 @@
 #include "exec/ForEach.hpp"
 #include "mapping/SureCell.hpp"
 #include "mesh/NearbyCells.hpp"
+#include "mesh/SpatialOrder.hpp"
 
 namespace gimdem
 {
@@ -21,7 +22,11 @@ constexpr Quad nowhere{0, 0, 0, -1};
 }  // namespace
 
 Mapper::Mapper(exec::Execution execution, PolyMesh const& mesh, MappingSettings const& settings)
-    : execution_(execution), mesh_(mesh), method_(make_method(settings, execution, mesh)), cell_grid_(cell_boxes(mesh))
+    : execution_(execution),
+      mesh_(mesh),
+      method_(make_method(settings, execution, mesh)),
+      cell_grid_(cell_boxes(mesh)),
+      cell_order_(spatial_order(mesh))
 {
     find_reverse_slots();
     if (settings.reuse_distance > 0) reuse_.emplace(settings.reuse_distance);
@@ -96,13 +101,12 @@ bool Mapper::prepare(ParticleState const& particles)
 void Mapper::compute_weights(ParticleState const& particles)
 {
     bool const others = prepare(particles);
-    layout_.lay_out(method_->candidates(), by_cell_, mesh_.cell_count());
-    cell_sums_.lay_out(method_->candidates(), layout_.occupied);
+    layout_.lay_out(method_->candidates(), by_cell_, cell_order_);
+    cell_sums_.lay_out(method_->candidates(), layout_.occupied, cell_order_);
     if (reuse_)
     {
         if (others) reuse_->forget_rows();
-        return reuse_->fill(execution_, *method_, particles, {mesh_.cell_count(), cell_of_, by_cell_, layout_},
-                            weights_);
+        return reuse_->fill(execution_, *method_, particles, {cell_order_, cell_of_, by_cell_, layout_}, weights_);
     }
     weights_.resize(layout_.weight_count);
     method_->compute_weights({execution_, particles, layout_.occupied, rows(), weights_.view().data});

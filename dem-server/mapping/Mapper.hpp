@@ -88,6 +88,7 @@ private:
     PolyMesh const& mesh_;
     std::unique_ptr<Method> method_;
     BoxGrid cell_grid_;
+    exec::Buffer<std::int32_t> cell_order_;  ///< in which cells are worked on
     /// For entry k of layers: place of the row's cell in the row of cells[k].
     exec::Buffer<std::int32_t> reverse_slot_;
     exec::Buffer<std::int32_t> cell_of_;

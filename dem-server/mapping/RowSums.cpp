@@ -87,7 +87,8 @@ struct TakeKernel
 
 }  // namespace
 
-void RowSums::lay_out(CellRows const& layers, exec::Buffer<std::int32_t> const& occupied)
+void RowSums::lay_out(CellRows const& layers, exec::Buffer<std::int32_t> const& occupied,
+                      exec::Buffer<std::int32_t> const& cell_order)
 {
     cell_count_ = static_cast<std::int32_t>(layers.offsets.size()) - 1;
     occupied_ = occupied;
@@ -102,11 +103,11 @@ void RowSums::lay_out(CellRows const& layers, exec::Buffer<std::int32_t> const& 
     }
     drag_shares_.resize(count);
     volume_shares_.resize(count);
-    find_receivers(layers);
+    find_receivers(layers, cell_order);
 }
 
 // Occupied cells and their candidates; where that is most of the mesh, all cells, without looking.
-void RowSums::find_receivers(CellRows const& layers)
+void RowSums::find_receivers(CellRows const& layers, exec::Buffer<std::int32_t> const& cell_order)
 {
     receivers_.resize(cell_count_);
     bool const most = 2 * occupied_.size() > cell_count_;
@@ -117,7 +118,7 @@ void RowSums::find_receivers(CellRows const& layers)
             for (std::int32_t k = layers.offsets[c]; k < layers.offsets[c + 1]; ++k)
                 receives_[layers.cells[k]] = 1;
     std::int64_t count = 0;
-    for (std::int32_t c = 0; c < cell_count_; ++c)
+    for (std::int32_t const c : cell_order.host())
     {
         receivers_[count] = c;
         count += receives_[c];
@@ -135,11 +136,10 @@ void RowSums::sum(exec::Execution const& execution, WeightedParticles const& of,
     sums.drag.resize(cell_count_);
     sums.solid_volume.fill(0);
     sums.drag.fill({0, 0, 0, 0});
-    exec::for_each(
-        execution, receivers_.size(),
-        TakeKernel{receivers_.view().data, of.rows.layer_offsets, of.rows.layer_cells, reverse_slot.view().data,
-                   first_share_.view().data, drag_shares_.view().data, volume_shares_.view().data,
-                   sums.solid_volume.view().data, sums.drag.view().data});
+    exec::for_each(execution, receivers_.size(),
+                   TakeKernel{receivers_.view().data, of.rows.layer_offsets, of.rows.layer_cells,
+                              reverse_slot.view().data, first_share_.view().data, drag_shares_.view().data,
+                              volume_shares_.view().data, sums.solid_volume.view().data, sums.drag.view().data});
 }
 
 }  // namespace gimdem

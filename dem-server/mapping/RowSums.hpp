@@ -28,14 +28,15 @@ class RowSums
 {
 public:
     /// Sees to room for the shares of these cells.
-    void lay_out(CellRows const& layers, exec::Buffer<std::int32_t> const& occupied);
+    void lay_out(CellRows const& layers, exec::Buffer<std::int32_t> const& occupied,
+                 exec::Buffer<std::int32_t> const& cell_order);
 
     /// `reverse_slot`: for entry k of the layers, place of the row's cell in the row of cells[k].
     void sum(exec::Execution const& execution, WeightedParticles const& of,
              exec::Buffer<std::int32_t> const& reverse_slot, CellSums& sums);
 
 private:
-    void find_receivers(CellRows const& layers);
+    void find_receivers(CellRows const& layers, exec::Buffer<std::int32_t> const& cell_order);
 
     std::int32_t cell_count_ = 0;
     exec::Buffer<std::int32_t> occupied_;     ///< cells that hold particles

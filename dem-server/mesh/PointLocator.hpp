@@ -16,10 +16,10 @@ namespace gimdem
 /// Where a search ended.
 struct Location
 {
-    std::int32_t cell;  ///< the cell that holds the point or, outside the mesh, the last one before the boundary
-    double outside;     ///< how far the point is outside of that cell [m]; <= 0 inside
-    std::int32_t face;  ///< the face it is outside of; -1 inside
-    bool is_certain;    ///< it is behind all faces by more than they are warped: no other cell holds it
+    std::int32_t cell;         ///< the cell that holds the point or, outside the mesh, the last one before the boundary
+    double outside;            ///< how far the point is outside of that cell [m]; <= 0 inside
+    std::int32_t face;         ///< the face it is outside of; -1 inside
+    bool is_certain;           ///< it is behind all faces by more than they are warped: no other cell holds it
     bool is_enclosed = false;  ///< not certain, but found to be enclosed by the cell's faces
 };
 
