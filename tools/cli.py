@@ -18,6 +18,7 @@ import bench_overlap
 import fuzz
 import meshes
 import run_case
+import status
 from build import build
 from console import ROOT, UserError, build_dir, say, shown
 from packages import setup
@@ -38,6 +39,7 @@ def parser() -> argparse.ArgumentParser:
 
     run_case.add_options(add("run", run_case.run, "install what is missing, build, run a case, plot and sum up"))
     meshes.add_options(add("mesh", meshes.run, "make the mesh of a case without running it"))
+    status.add_options(add("status", status.run, "how a run stands: speed, balance, time left"))
     add("test", run_tests, f"build everything and run the tests, except {SKIPPED_LABELS}; further options go to ctest")
     bench = add("bench", run_benchmarks, "run the benchmarks")
     bench.add_argument("name", nargs="?",

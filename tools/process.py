@@ -44,7 +44,7 @@ def kill_session(leader: int) -> None:
         try:
             if entry.name.isdigit() and os.getsid(int(entry.name)) == leader:
                 os.kill(int(entry.name), signal.SIGKILL)
-        except ProcessLookupError:
+        except OSError:  # it has ended meanwhile, or belongs to somebody else
             continue
 
 

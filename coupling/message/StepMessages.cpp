@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "message/ClockMessages.hpp"
+
 namespace gimdem::coupling::message
 {
 namespace
@@ -130,6 +132,11 @@ FluidState unpack_fluid_state(Message const& message, Terms const& terms)
                " a Rewind (just those above 0 have one)");
     state.residual = body.has_rewind() ? body.rewind().residual() : body.residual();
     check_number(state.residual, 0, "FluidState: residual");
+    if (body.has_previous_times())
+    {
+        state.previous_times = unpack_times(body.previous_times());
+        state.clock = unpack_offset(body.previous_times());
+    }
     return state;
 }
 

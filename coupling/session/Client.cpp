@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "gimdem/coupling/Status.hpp"
 #include "message/Greeting.hpp"
 #include "message/MeshMessage.hpp"
 #include "message/StepMessages.hpp"
+#include "session/ClientRecord.hpp"
 #include "session/ExchangeClock.hpp"
 #include "session/Options.hpp"
 #include "session/Session.hpp"
@@ -56,6 +58,7 @@ struct Client::Impl
         catch (CouplingError const& error)
         {
             session.note(error.what());
+            record.log().write(LogLevel::error, "fault", error.what());
             throw;
         }
     }
@@ -72,6 +75,8 @@ struct Client::Impl
     Step step;
     int pass = 0;  ///< of this step
     session::ExchangeClock clock;
+    session::ClientRecord record;
+    Time fluid_sent;  ///< of this step
     session::Session session;
 };
 
@@ -103,6 +108,8 @@ void Client::Impl::connect(FluidProperties const& fluid)
                                                           .iterates = options.iterates,
                                                           .rank = options.rank});
     shared.offer(hello);
+    record.stamp(hello);
+    Time const hello_sent = Clock::now();
     session.send(std::move(hello));
 
     if (!session.wait_for_contact(Clock::now() + ticks(options.connect_time)))
@@ -115,7 +122,14 @@ void Client::Impl::connect(FluidProperties const& fluid)
     session.set_peer_name(welcome.server);
     check_rank_endpoints();
     shared.agree(letter.message);
+    session.read([&] { record.heard(letter.message, hello_sent, letter.arrival); });
     terms.fluid = session.read([&] { return message::choose_fluid_fields(welcome.needs, Fault::protocol); });
+    record.log().write(LogLevel::info, "connected", "connected to " + welcome.server,
+                       {{"endpoint", options.endpoint},
+                        {"title", welcome.title},
+                        {"schedule", name_of(welcome.schedule)},
+                        {"clock_offset_s", record.offset() ? record.offset()->offset : not_known},
+                        {"clock_uncertainty_s", record.offset() ? record.offset()->uncertainty : not_known}});
 }
 
 void Client::Impl::send_mesh(MeshView const& mesh)
@@ -134,6 +148,8 @@ void Client::Impl::send_mesh(MeshView const& mesh)
     session.use(shared.use_if_confirmed(letter.message, terms.memory));
     session.use(session.read([&] { return shared.map_announced(letter.message); }));
     take_solid();
+    record.log().write(LogLevel::info, "mesh_accepted", "the server holds the mesh",
+                       {{"cells", static_cast<double>(mesh.cell_count)}});
 }
 
 void Client::Impl::begin_step(Step const& next, FluidFields const& fluid, std::vector<Monitor> const& monitors)
@@ -169,6 +185,7 @@ void Client::Impl::send_fluid(Event call, FluidState const& fluid, Time entered)
     session.require(call);
     message::Message message = message::lay_out(fluid, terms);
     shared.confirm(message);
+    record.put_into_fluid(message);
     session.prepare(message);
     session.look_for_trouble("the fluid of its program");
     step = fluid.step;
@@ -177,11 +194,16 @@ void Client::Impl::send_fluid(Event call, FluidState const& fluid, Time entered)
     session.advance(call);
     session.send(std::move(message));
     terms.memory.message_sent();
-    clock.sent(entered, Clock::now());
+    fluid_sent = Clock::now();
+    clock.sent(entered, fluid_sent);
+    record.began(step.number, entered, fluid_sent);
 
     if (overlaps()) return;
-    take_solid();
-    clock.answered_serial(Clock::now(), solid.busy_time);
+    Time const arrival = take_solid();
+    Time const left = Clock::now();
+    double const waiting = clock.answered_serial(left, solid.busy_time);
+    record.began(step.number, entered, left);
+    record.waited_in_begin(fluid_sent, arrival, waiting);
 }
 
 void Client::Impl::end_step(Timings const& timings, double residual)
@@ -192,16 +214,24 @@ void Client::Impl::end_step(Timings const& timings, double residual)
     previous = timings;
     previous_residual = residual;
 
-    if (!overlaps()) return;
+    if (!overlaps()) return record.ended(entered, Clock::now(), 0);
     Time const arrival = take_solid();
-    clock.answered_overlapped(entered, arrival, Clock::now(), solid.busy_time);
+    Time const left = Clock::now();
+    record.ended(entered, left, clock.answered_overlapped(entered, arrival, left, solid.busy_time));
 }
 
 void Client::Impl::finish(std::string const& reason)
 {
     session.require(Event::finish);
     bool const greeted = session.state() != State::created && session.state() != State::finished;
-    if (greeted) session.send(message::pack_goodbye(reason));
+    message::Message goodbye = message::pack_goodbye(reason);
+    record.put_into_goodbye(goodbye, previous);
+    if (greeted) session.send(std::move(goodbye));
+    record.log().write(LogLevel::info, "finished", reason,
+                       {{"steps", static_cast<double>(step.number)},
+                        {"exchange_s", clock.times().exchange},
+                        {"waiting_s", clock.times().waiting},
+                        {"bytes", clock.times().bytes}});
     session.advance(Event::finish);
     session.close();
 }
@@ -234,6 +264,7 @@ Time Client::Impl::take_solid()
                                           "); the two programs do not fit together, see docs/protocol.md");
     session.read([&] { shared.attach(letter.message); });
     solid = session.read([&] { return message::unpack_solid_state(letter.message, terms); });
+    session.read([&] { record.heard(letter.message, fluid_sent, letter.arrival); });
     solid_message = std::move(letter.message);
     return letter.arrival;
 }
@@ -278,6 +309,14 @@ void Client::finish(std::string const& reason)
 
 void Client::abort(std::string const& reason) noexcept
 {
+    try
+    {
+        impl_->record.log().write(LogLevel::error, "aborted", reason);
+    }
+    catch (std::exception const&)
+    {
+        // The log is of no use to a program that is out of memory.
+    }
     impl_->session.abort(Fault::user, reason);
 }
 

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "message/ClockMessages.hpp"
 #include "message/Greeting.hpp"
 #include "message/MeshMessage.hpp"
 #include "message/StepMessages.hpp"
@@ -91,7 +92,9 @@ struct Server::Impl : session::Exchange
     std::string goodbye;
     double busy_before = 0;  ///< the last fluid lay here unread for so long [s]
     Time handed_out;         ///< when receive_fluid() returned
-    std::mutex stop_mutex;   ///< request_stop() may come from another thread
+    ServerTimes times;       ///< of the last step
+    std::optional<LastClientStep> last_client_step;
+    std::mutex stop_mutex;  ///< request_stop() may come from another thread
     std::optional<std::string> stop;
     std::optional<Rank> expected_rank;
     session::Session session;
@@ -111,6 +114,7 @@ Server::Impl::Impl(ServerOptions given, std::optional<Rank> expected)
     if (!options.keys.empty()) keys = transport::read_server_keys(options.keys);
     session.open(transport::Socket::bind(options.endpoint, keys), options.log);
     shared.want(options.shared_memory && session.is_ipc());
+    if (options.clock_origin == 0) options.clock_origin = clock_now();
 }
 
 ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
@@ -145,6 +149,10 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
     shared.offer(welcome);
     shared.agree(letter.message);
     session.limit_arrays(transport::half_of_memory());
+    if (session.read([&] { return message::clock_reading(letter.message); }))
+        message::put(
+            {transport::on_clock(letter.arrival), clock_now(), options.clock_origin, message::machine_number()},
+            welcome);
     session.send(std::move(welcome));
     ClientInfo info{.name = hello.name,
                     .fluid = hello.fluid,
@@ -242,20 +250,27 @@ std::optional<FluidState> Server::Impl::receive_fluid()
     fluid_message = std::move(letter.message);
     busy_before = std::max(0.0, seconds_between(letter.arrival, entered));
     handed_out = Clock::now();
+    times.asked = transport::on_clock(entered);
+    times.arrived = transport::on_clock(letter.arrival);
+    times.handed_out = transport::on_clock(handed_out);
+    if (fluid.clock) session.status_desk().publish(*fluid.clock);
     return fluid;
 }
 
 void Server::Impl::send_solid(SolidFields const& fields, Timings const& timings)
 {
+    times.answering = clock_now();
     double const busy = busy_before + seconds_between(handed_out, Clock::now());
     session.require(Event::send_solid);
     message::Message solid = message::lay_out(message::SolidState{fields, timings, busy, stop_reason()}, terms);
     solid.envelope.set_iteration(pass);
+    message::put({times.arrived, times.answering, options.clock_origin, 0}, solid);
     session.prepare(solid);
     session.look_for_trouble("the solid of its program");
     session.advance(Event::send_solid);
     session.send(std::move(solid));
     terms.memory.message_sent();
+    times.answered = clock_now();
 }
 
 void Server::Impl::request_stop(std::string const& reason)
@@ -279,6 +294,7 @@ bool Server::Impl::said_goodbye(session::Letter const& letter)
 {
     if (letter.message.kind() != message::Kind::kGoodbye) return false;
     goodbye = message::unpack_goodbye(letter.message);
+    last_client_step = session.read([&] { return message::unpack_last_step(letter.message); });
     return true;
 }
 
@@ -354,6 +370,21 @@ void Server::abort(std::string const& reason) noexcept
 void Server::request_stop(std::string const& reason)
 {
     impl_->whole().request_stop(reason);
+}
+
+ServerTimes const& Server::step_times() const
+{
+    return impl_->times;
+}
+
+std::optional<LastClientStep> const& Server::last_client_step() const
+{
+    return impl_->last_client_step;
+}
+
+void Server::publish(RunStatus run)
+{
+    impl_->session.status_desk().publish(std::move(run));
 }
 
 double Server::bytes() const

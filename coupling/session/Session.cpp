@@ -51,6 +51,8 @@ void Session::open(transport::Socket socket, std::function<void(std::string cons
     { return role_ == Role::client || message::may_open(message::peek_kind(first)); };
     hooks.answer_stranger = [this](transport::Frames frames) { return on_stranger(std::move(frames)); };
     hooks.note = [this](std::string const& text) { on_note(text); };
+    if (role_ == Role::server)
+        hooks.answer_question = [this](transport::Frames& frames) { return on_question(frames); };
     hooks.ended = [this](transport::Ending ending) { inbox_.end(std::move(ending)); };
     endpoint_ = socket.endpoint();
     channel_ = std::make_unique<transport::Channel>(std::move(socket), timeout_, std::move(hooks));
@@ -80,7 +82,14 @@ void Session::advance(Event event)
 {
     std::lock_guard<std::mutex> const lock(mutex_);
     state_ = next_state(rules_, state_, event).value_or(State::failed);
+    state_since_ = transport::Clock::now();
     ++progress_;
+}
+
+void Session::note_heard(Time arrival)
+{
+    std::lock_guard<std::mutex> const lock(mutex_);
+    heard_ = std::max(heard_.value_or(arrival), arrival);
 }
 
 void Session::set_step(std::int64_t step)
@@ -156,6 +165,7 @@ Letter Session::receive(std::string const& awaited, Time deadline, double patien
     Message const& message = delivery.letter->message;
     bytes_ += static_cast<double>(message.envelope.ByteSizeLong() + message::array_bytes(message));
     advance(*event_of(message.kind()));
+    note_heard(delivery.letter->arrival);
     return std::move(*delivery.letter);
 }
 

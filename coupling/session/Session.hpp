@@ -14,6 +14,7 @@
 #include "message/Control.hpp"
 #include "session/Inbox.hpp"
 #include "session/States.hpp"
+#include "session/StatusDesk.hpp"
 #include "transport/Channel.hpp"
 #include "transport/Mailbox.hpp"
 
@@ -86,6 +87,9 @@ public:
     /// Remembers a fault that did not end the session, as the likely reason if it ends soon.
     void note(std::string const& text) { last_fault_ = text; }
 
+    /// Server: what it answers to a StatusRequest.
+    StatusDesk& status_desk() { return desk_; }
+
     /// Ends the session: tells the peer, and throws.
     [[noreturn]] void fail(Fault fault, std::string const& text);
     /// Ends the session: tells the peer, waits one second at most for the words to leave.
@@ -106,6 +110,7 @@ private:
     Delivery watched_letter(Time deadline);
     std::optional<Letter> take_post();
     void stamp(message::Message& message) const;
+    void note_heard(Time arrival);
     void fall(std::string const& why);
     void tell(Fault fault, std::string const& reason);
     void check_letter(Letter const& letter, std::string const& awaited);
@@ -122,6 +127,8 @@ private:
     transport::Frames on_heartbeat_due() const;
     void on_note(std::string const& text);
     transport::Frames on_stranger(transport::Frames frames) const;
+    std::optional<transport::Frames> on_question(transport::Frames& frames);
+    Status status() const;
 
     Role const role_;
     std::string const name_;
@@ -136,12 +143,15 @@ private:
 
     mutable std::mutex mutex_;  ///< guards what follows
     State state_;
+    Time state_since_ = transport::Clock::now();
+    std::optional<Time> heard_;  ///< the peer, the last time
     std::int64_t step_ = 0;
     std::uint64_t progress_ = 0;
     std::string peer_;  ///< name
     std::string connection_note_;
     message::Heartbeat peer_heartbeat_;  ///< the last one
 
+    StatusDesk desk_;
     Inbox inbox_;
     std::unique_ptr<transport::Outbox> outbox_;    ///< null: everything goes through the channel
     std::unique_ptr<transport::Postbox> postbox_;  ///< null: everything comes through the channel

@@ -36,21 +36,6 @@ static Span<double const> components(const Field<Type>& f)
     };
 }
 
-//- As the case file writes it
-static const char* nameOf(const Schedule schedule)
-{
-    switch (schedule)
-    {
-        case Schedule::overlapped:
-            return "overlapped";
-        case Schedule::iterated:
-            return "iterated";
-        default:
-            return "serial";
-    }
-}
-
-
 //- Which processor this is, of a run whose number the master draws
 static Rank thisRank()
 {
@@ -223,7 +208,7 @@ void Foam::couplingClient::connect
 
     Info<< "Connected to " << welcome.server.c_str() << ": "
         << welcome.title.c_str() << nl
-        << "    schedule " << nameOf(welcome.schedule)
+        << "    schedule " << name_of(welcome.schedule)
         << ", end time " << welcome.end_time << " s";
     if (welcome.fluid_steps > 1)
     {

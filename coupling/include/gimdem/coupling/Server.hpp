@@ -26,6 +26,8 @@
 #include <vector>
 
 #include "gimdem/coupling/Error.hpp"
+#include "gimdem/coupling/Status.hpp"
+#include "gimdem/coupling/StepTimes.hpp"
 #include "gimdem/coupling/Types.hpp"
 
 namespace gimdem::coupling
@@ -42,6 +44,7 @@ struct ServerOptions
     std::string keys;           ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
     /// Told what a user may like to know, such as who was turned away; on another thread, and it must not block.
     std::function<void(std::string const&)> log;
+    double clock_origin = 0;    ///< when the run began, by clock_now() [s]; 0: now
 };
 
 /// What the case file fixes and the client is told.
@@ -78,6 +81,8 @@ struct FluidState
     double waiting = 0;   ///< the client's sum of waiting so far [s]
     int pass = 0;         ///< above 0: go back to the beginning of the last step, and repeat it in this fluid
     double residual = 0;  ///< of the pass before, relative; schedule iterated
+    ClientTimes previous_times = {};                  ///< when the client's previous step did what; step 0: not told
+    std::optional<ClockOffset> clock = std::nullopt;  ///< by the client's latest estimate
 };
 
 class Server
@@ -118,6 +123,14 @@ public:
 
     /// Ask the client for an orderly end (Ctrl-C here): the next solid carries the reason, Client::stop_request().
     void request_stop(std::string const& reason);
+
+    /// When the last step did what; its answer is that of the step before until send_solid().
+    ServerTimes const& step_times() const;
+    /// After Goodbye, if the client tells it.
+    std::optional<LastClientStep> const& last_client_step() const;
+
+    /// What query_status() answers from now on; cheap enough for every step.
+    void publish(RunStatus run);
 
     /// Bytes received and sent so far, through shared memory too.
     double bytes() const;

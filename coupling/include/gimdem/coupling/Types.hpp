@@ -25,6 +25,20 @@ enum class Schedule
     iterated     ///< serial, and the step is repeated in the fluid at t + dt until that stands still
 };
 
+/// As case files write it.
+inline char const* name_of(Schedule schedule)
+{
+    switch (schedule)
+    {
+        case Schedule::overlapped:
+            return "overlapped";
+        case Schedule::iterated:
+            return "iterated";
+        default:
+            return "serial";
+    }
+}
+
 /// How the schedule `iterated` repeats a step, docs/theory.md (C.15)-(C.18).
 struct Iteration
 {
