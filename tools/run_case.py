@@ -144,6 +144,8 @@ class Run:
 
     def start_client(self) -> subprocess.Popen[bytes]:
         command = [str(openfoam_client_binary()), "-case", str(self.folder), "-endpoint", self.endpoint.address]
+        if self.restart and self.restart.fluid:
+            command += ["-restart", self.restart.fluid.name]
         with self.client_log.open("ab") as log:
             return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder, env=openfoam.environment())
 

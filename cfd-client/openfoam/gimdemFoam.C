@@ -36,6 +36,7 @@ Description
 #include "sigFpe.H"
 
 #include "couplingClient.H"
+#include "fluidCheckpoint.H"
 #include "halfCells.H"
 
 #ifdef __GLIBC__
@@ -75,12 +76,14 @@ static void simulate
     std::unique_ptr<couplingClient>& server
 )
 {
-    #include "createTime.H"
+    Info<< "Create time\n" << endl;
+    resumableTime runTime(args);
+    const auto resumed = fluidCheckpoint::resume(runTime, args);
 
     // Ctrl-C is the server's: it asks for an orderly end
     std::signal(SIGINT, SIG_IGN);
 
-    server.reset(new couplingClient(runTime, args));
+    server.reset(new couplingClient(runTime, args, resumed));
     couplingClient& particles = *server;
 
     #include "createMesh.H"
@@ -92,7 +95,10 @@ static void simulate
     particles.connect(rho, mu);
     runTime.setEndTime(particles.endTime());
     particles.sendMesh(mesh);
-    particles.getSolid(alpha, K, M);
+    if (!resumed)
+    {
+        particles.getSolid(alpha, K, M);
+    }
 
     #include "initialFlux.H"
     #include "setFluid.H"
@@ -111,7 +117,7 @@ static void simulate
         catch (const std::exception&)
         {
             // Keep the fluid where the particles ended
-            runTime.writeNow();
+            runTime.writeFields(true);
             throw;
         }
 
@@ -141,8 +147,12 @@ static void simulate
         #include "setFluid.H"
 
         const scalar compute = clock.timeIncrement();
-        runTime.write();
+        runTime.writeFields();
         particles.endStep(compute, clock.timeIncrement());
+        if (runTime.writeTime())
+        {
+            particles.saveCheckpoint(runTime);
+        }
 
         #include "reportStep.H"
 
@@ -152,7 +162,8 @@ static void simulate
 
     if (!runTime.writeTime())
     {
-        runTime.writeNow();
+        runTime.writeFields(true);
+        particles.saveCheckpoint(runTime);
     }
     particles.finish
     (
@@ -213,6 +224,7 @@ int main(int argc, char *argv[])
     );
     argList::addBoolOption("verbose", "print each linear solver's residuals");
     couplingClient::addOptions();
+    fluidCheckpoint::addOptions();
 
     #include "setRootCase.H"
 

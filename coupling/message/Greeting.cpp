@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "message/Greeting.hpp"
 
+#include "message/CheckpointMessages.hpp"
 #include "message/Fields.hpp"
 
 namespace gimdem::coupling::message
@@ -41,6 +42,7 @@ Message pack(Hello const& hello)
         body.add_wants(name);
     if (hello.schedule) body.set_schedule(to_wire(*hello.schedule));
     body.set_timeout(hello.timeout);
+    if (hello.resume) pack_resume_point(*hello.resume, body);
     return message;
 }
 
@@ -54,6 +56,7 @@ Message pack(Welcome const& welcome)
     body.set_end_time(welcome.end_time);
     for (std::string const& name : welcome.needs)
         body.add_needs(name);
+    body.set_saves_checkpoints(welcome.saves_checkpoints);
     return message;
 }
 
@@ -66,6 +69,7 @@ Hello unpack_hello(Message const& message)
     hello.wants.assign(body.wants().begin(), body.wants().end());
     hello.schedule = from_wire(body.schedule());
     hello.timeout = body.timeout();
+    hello.resume = unpack_resume_point(body);
 
     check_name(hello.name, "Hello: the client's name");
     check_number(hello.fluid.density, 0, "Hello: density");
@@ -87,6 +91,7 @@ Welcome unpack_welcome(Message const& message)
     welcome.schedule = *schedule;
     welcome.end_time = body.end_time();
     welcome.needs.assign(body.needs().begin(), body.needs().end());
+    welcome.saves_checkpoints = body.saves_checkpoints();
 
     check_name(welcome.server, "Welcome: the server's name");
     check_number(welcome.end_time, 0, "Welcome: end time");

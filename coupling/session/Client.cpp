@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "message/CheckpointMessages.hpp"
 #include "message/Greeting.hpp"
 #include "message/MeshMessage.hpp"
 #include "message/StepMessages.hpp"
@@ -34,6 +35,7 @@ struct Client::Impl
     void send_mesh(MeshView const& mesh);
     void begin_step(Step const& step, FluidFields const& fluid, std::vector<Monitor> const& monitors);
     void end_step(Timings const& timings);
+    SavedCheckpoint save_checkpoint(CheckpointRequest const& request);
     void finish(std::string const& reason);
 
     session::Letter receive(std::string const& awaited);
@@ -86,7 +88,8 @@ void Client::Impl::connect(FluidProperties const& fluid)
     session.advance(Event::connect);
     shared.want(options.shared_memory && session.is_ipc());
     message::Message hello =
-        message::pack(message::Hello{options.name, fluid, options.wants, options.schedule, options.timeout});
+        message::pack(
+        message::Hello{options.name, fluid, options.wants, options.schedule, options.timeout, options.resume});
     shared.offer(hello);
     session.send(std::move(hello));
 
@@ -155,6 +158,21 @@ void Client::Impl::end_step(Timings const& timings)
     clock.answered_overlapped(entered, arrival, Clock::now(), solid.busy_time);
 }
 
+SavedCheckpoint Client::Impl::save_checkpoint(CheckpointRequest const& request)
+{
+    session.require(Event::save_checkpoint);
+    if (!welcome.saves_checkpoints)
+        throw CouplingError(Fault::user, session.peer_name() +
+                                             " saves no checkpoints when asked (Welcome::saves_checkpoints tells); "
+                                             "do not ask for one");
+    message::Message message = message::pack(request);
+    session.look_for_trouble("the fluid of its program");
+    session.advance(Event::save_checkpoint);
+    session.send(std::move(message));
+    session::Letter const letter = receive("CheckpointSaved");
+    return session.read([&] { return message::unpack_saved_checkpoint(letter.message); });
+}
+
 void Client::Impl::finish(std::string const& reason)
 {
     session.require(Event::finish);
@@ -208,6 +226,13 @@ SolidFields const& Client::begin_step(Step const& step, FluidFields const& fluid
 void Client::end_step(Timings const& timings)
 {
     impl_->guard([&] { impl_->end_step(timings); });
+}
+
+SavedCheckpoint Client::save_checkpoint(double time, std::int64_t complete_step)
+{
+    SavedCheckpoint saved;
+    impl_->guard([&] { saved = impl_->save_checkpoint({time, complete_step}); });
+    return saved;
 }
 
 void Client::finish(std::string const& reason)

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "message/CheckpointMessages.hpp"
 #include "message/Greeting.hpp"
 #include "message/MeshMessage.hpp"
 #include "message/StepMessages.hpp"
@@ -41,6 +42,7 @@ struct Server::Impl
     void request_stop(std::string const& reason);
 
     session::Letter receive(std::string const& awaited);
+    void save_checkpoint(session::Letter const& letter);
     bool said_goodbye(session::Letter const& letter);
     void check_order(Step const& step);
     std::optional<std::string> stop_reason();
@@ -62,6 +64,7 @@ struct Server::Impl
 
     ServerOptions options;
     message::Terms terms;
+    CheckpointSaver saver;
     session::SharedFields shared;    ///< outlives the messages that lie in it
     message::Message fluid_message;  ///< holds the bytes that the spans of the last FluidState show
     session::StepOrder order;
@@ -101,11 +104,12 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
     terms.solid = message::choose_solid_fields(hello.wants, Fault::protocol);
 
     message::Message welcome = message::pack(Welcome{
-        options.name, offered.title, hello.schedule.value_or(offered.schedule), offered.end_time, offered.needs});
+        options.name, offered.title, hello.schedule.value_or(offered.schedule), offered.end_time, offered.needs,
+        static_cast<bool>(saver)});
     shared.offer(welcome);
     shared.agree(letter.message);
     session.send(std::move(welcome));
-    return {hello.name, hello.fluid, hello.wants, hello.schedule};
+    return {hello.name, hello.fluid, hello.wants, hello.schedule, hello.resume};
 }
 
 Mesh Server::Impl::receive_mesh()
@@ -148,6 +152,8 @@ std::optional<FluidState> Server::Impl::receive_fluid()
     if (session.state() == State::finished) return std::nullopt;
 
     session::Letter letter = receive("FluidState");
+    for (; letter.message.kind() == message::Kind::kCheckpoint; letter = receive("FluidState"))
+        save_checkpoint(letter);
     if (said_goodbye(letter)) return std::nullopt;
 
     session.set_step(letter.message.envelope.step());
@@ -159,6 +165,18 @@ std::optional<FluidState> Server::Impl::receive_fluid()
     busy_before = std::max(0.0, seconds_between(letter.arrival, entered));
     handed_out = Clock::now();
     return fluid;
+}
+
+void Server::Impl::save_checkpoint(session::Letter const& letter)
+{
+    CheckpointRequest const request = session.read([&] { return message::unpack_checkpoint_request(letter.message); });
+    if (!saver)
+        session.fail(Fault::protocol, message::describe(letter.message) + " from " + session.peer_name() +
+                                          " is not allowed (this server saves none, as its Welcome told); do not ask "
+                                          "for one");
+    message::Message answer = message::pack(saver(request));
+    session.advance(Event::checkpoint_is_saved);
+    session.send(std::move(answer));
 }
 
 void Server::Impl::send_solid(SolidFields const& fields, Timings const& timings)
@@ -215,6 +233,11 @@ std::string const& Server::endpoint() const
     return impl_->session.endpoint();
 }
 
+void Server::save_checkpoints_by(CheckpointSaver saver)
+{
+    impl_->saver = std::move(saver);
+}
+
 ClientInfo Server::wait_for_client(ServerTerms const& terms)
 {
     return impl_->guard([&] { return impl_->wait_for_client(terms); });
@@ -248,6 +271,16 @@ std::string const& Server::goodbye_reason() const
 void Server::send_solid(SolidFields const& fields, Timings const& timings)
 {
     impl_->guard([&] { impl_->send_solid(fields, timings); });
+}
+
+bool Server::has_lost_client() const
+{
+    return impl_->session.has_lost_peer();
+}
+
+std::uint64_t Server::session_number() const
+{
+    return impl_->session.session_number();
 }
 
 void Server::abort(std::string const& reason) noexcept

@@ -25,6 +25,7 @@ enum class State
     solving,      ///< client, serial: for its program to end the fluid step
     overlapping,  ///< client, overlapped: for its program to end the fluid step, and the solid of the step
     computing,    ///< server: for its program to answer the fluid
+    saving,       ///< client: for CheckpointSaved; server: for its program to save a checkpoint
     finished,     ///< both: Goodbye was said
     failed        ///< both: a fault ended the session
 };
@@ -39,6 +40,7 @@ enum class Event
     begin_serial_step,
     begin_overlapped_step,
     end_step,
+    save_checkpoint,
     finish,
     // calls of the server's program
     wait_for_client,
@@ -47,6 +49,7 @@ enum class Event
     reject_mesh,
     receive_fluid,
     send_solid,
+    checkpoint_is_saved,
     // messages
     hello,
     welcome,
@@ -54,7 +57,9 @@ enum class Event
     mesh_accepted,
     fluid_state,
     solid_state,
-    goodbye
+    goodbye,
+    checkpoint,
+    checkpoint_saved
 };
 
 /// In state `from`, `event` is legal and leads to state `to`. What no rule allows is refused.

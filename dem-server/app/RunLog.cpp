@@ -114,6 +114,15 @@ void RunLog::record(coupling::FluidState const& fluid, StepReport const& report,
                                           .speed_max = fastest(system_.particles())});
 }
 
+void RunLog::rewind(double time)
+{
+    interval_ = {};
+    last_momentum_ = momentum(system_.particles());
+    if (!series_) return;
+    rows_ = series_->keep_before(time);
+    frame_count_ = frames_.resume(time);
+}
+
 void RunLog::open_series(coupling::FluidState const& fluid)
 {
     std::vector<output::Column> columns{{"time", "s"}, {"bed_height", "m"}, {"centre_of_mass", "m"}};

@@ -33,6 +33,9 @@ public:
     /// After a step.
     void record(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine);
 
+    /// The run goes on from an earlier time [s]: rows and frames from there on are written again.
+    void rewind(double time);
+
     /// The end, however it came: figures to summary.json and the terminal.
     void finish(double bytes);
 

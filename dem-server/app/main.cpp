@@ -41,6 +41,12 @@ void gimdem::app::heed_interrupts()
     std::signal(SIGTERM, on_interrupt);
 }
 
+void gimdem::app::die_of_interrupts()
+{
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+}
+
 bool gimdem::app::interrupted()
 {
     return interrupt_requested != 0;
@@ -63,7 +69,7 @@ int main(int argc, char** argv)
         if (settings.run.client == "none")
             gimdem::app::run_alone(settings, options->run_folder, options->restart);
         else
-            gimdem::app::run(settings, options->run_folder, options->restart);
+            gimdem::app::run(settings, options->run_folder, options->restart, options->grace_time);
         return 0;
     }
     catch (std::exception const& error)

@@ -10,6 +10,7 @@
 
 #include "couplingClient.H"
 #include "polyMeshArrays.H"
+#include "fluidCheckpoint.H"
 #include "fvc.H"
 
 using namespace gimdem::coupling;
@@ -40,7 +41,8 @@ static Span<double const> components(const Field<Type>& f)
 ClientOptions Foam::couplingClient::options
 (
     const Time& runTime,
-    const argList& args
+    const argList& args,
+    const std::optional<ResumePoint>& resumed
 )
 {
     const IOdictionary dict
@@ -60,6 +62,7 @@ ClientOptions Foam::couplingClient::options
 
     ClientOptions o;
     o.name = "gimdemFoam";
+    o.resume = resumed;
     o.endpoint =
         args.found("endpoint")
       ? args.opt<string>("endpoint")
@@ -118,9 +121,15 @@ void Foam::couplingClient::addOptions()
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::couplingClient::couplingClient(const Time& runTime, const argList& args)
+Foam::couplingClient::couplingClient
+(
+    const Time& runTime,
+    const argList& args,
+    const std::optional<ResumePoint>& resumed
+)
 :
-    client_(options(runTime, args))
+    client_(options(runTime, args, resumed)),
+    completeStep_(resumed ? resumed->step : 0)
 {}
 
 
@@ -281,6 +290,21 @@ void Foam::couplingClient::endStep(const scalar compute, const scalar output)
     timings.output = output;
 
     client_.end_step(timings);
+}
+
+
+void Foam::couplingClient::saveCheckpoint(resumableTime& runTime)
+{
+    if (client_.welcome().saves_checkpoints)
+    {
+        const SavedCheckpoint saved
+        (
+            client_.save_checkpoint(runTime.value(), completeStep_)
+        );
+        fluidCheckpoint::complete(runTime, saved);
+        completeStep_ = saved.step;
+    }
+    runTime.purge();
 }
 
 

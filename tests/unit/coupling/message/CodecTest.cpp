@@ -62,7 +62,7 @@ TEST_P(Damaged, MessageIsRefused)
 
 std::vector<Damage> const damages{
     {"OlderVersion", [](auto& m) { m.envelope.set_protocol_major(0); }, Fault::version,
-     "protocol 0.0 and this side speaks 1.0"},
+     "protocol 0.0 and this side speaks 1.1"},
     {"NewerVersion", [](auto& m) { m.envelope.set_protocol_major(2); }, Fault::version, "protocol 2.0"},
     {"NoKind", [](auto& m) { m.envelope.clear_kind(); }, Fault::protocol, "without a message"},
     {"Iteration", [](auto& m) { m.envelope.set_iteration(1); }, Fault::protocol, "iteration 1"},

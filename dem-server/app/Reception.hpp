@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Where clients are met: the first one, and one that comes back.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "core/Case.hpp"
+#include "gimdem/coupling/Server.hpp"
+
+namespace gimdem::app
+{
+
+class CoupledRun;
+
+/// Holds the server's end of the wire. A session serves one client, so one that comes back is met by a new session at
+/// the same address.
+class Reception
+{
+public:
+    Reception(Case const& settings, coupling::Server::CheckpointSaver saver);
+
+    coupling::Server& server() { return *server_; }
+
+    /// The first client.
+    coupling::ClientInfo meet();
+
+    /// Waits for the client to come back, `grace_time` [s] at most, and has the run go on from its checkpoint; whoever
+    /// else comes is turned away. False: it has not come.
+    bool meet_again(CoupledRun& run, double grace_time);
+
+private:
+    void open(std::string const& endpoint, double patience);
+    void go_on(CoupledRun& run);
+
+    Case const& settings_;
+    coupling::Server::CheckpointSaver saver_;
+    std::optional<coupling::Server> server_;
+    std::set<std::uint64_t> sessions_;  ///< of this run so far
+};
+
+}  // namespace gimdem::app
