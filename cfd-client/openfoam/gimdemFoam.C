@@ -205,6 +205,9 @@ int main(int argc, char *argv[])
 {
     keepFreedMemory();
 
+    // A limit of file sizes is an error of writing, as a full disk is
+    std::signal(SIGXFSZ, SIG_IGN);
+
     for (int i = 1; i < argc; ++i)
     {
         if (std::string(argv[i]) == "-parallel")

@@ -87,8 +87,7 @@ void Client::Impl::connect(FluidProperties const& fluid)
     session.open(transport::Socket::connect(options.endpoint));
     session.advance(Event::connect);
     shared.want(options.shared_memory && session.is_ipc());
-    message::Message hello =
-        message::pack(
+    message::Message hello = message::pack(
         message::Hello{options.name, fluid, options.wants, options.schedule, options.timeout, options.resume});
     shared.offer(hello);
     session.send(std::move(hello));

@@ -103,9 +103,9 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
     session.choose_session_number();
     terms.solid = message::choose_solid_fields(hello.wants, Fault::protocol);
 
-    message::Message welcome = message::pack(Welcome{
-        options.name, offered.title, hello.schedule.value_or(offered.schedule), offered.end_time, offered.needs,
-        static_cast<bool>(saver)});
+    message::Message welcome =
+        message::pack(Welcome{options.name, offered.title, hello.schedule.value_or(offered.schedule), offered.end_time,
+                              offered.needs, static_cast<bool>(saver)});
     shared.offer(welcome);
     shared.agree(letter.message);
     session.send(std::move(welcome));

@@ -65,10 +65,10 @@ private:
     DemSystem system_;
     RunLog log_;
     CoupledEngine engine_;
-    RunPoint start_, at_;               ///< in coupling steps
-    std::int64_t complete_step_ = 0;    ///< of the newest checkpoint to which the client has a fluid
-    bool is_asked_ = false;             ///< the client asks for checkpoints
-    std::int64_t kept_ = -1;            ///< step of the last checkpoint
+    RunPoint start_, at_;             ///< in coupling steps
+    std::int64_t complete_step_ = 0;  ///< of the newest checkpoint to which the client has a fluid
+    bool is_asked_ = false;           ///< the client asks for checkpoints
+    std::int64_t kept_ = -1;          ///< step of the last checkpoint
 };
 
 }  // namespace gimdem::app

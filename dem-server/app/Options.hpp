@@ -20,7 +20,7 @@ struct Options
     std::optional<double> until;
     std::optional<int> threads;
     std::optional<std::filesystem::path> restart;  ///< checkpoint to go on from
-    double grace_time = 0;  ///< a lost client may come back within it [s]
+    double grace_time = 0;                         ///< a lost client may come back within it [s]
 };
 
 /// Empty when the program has nothing to do (help, version, wrong usage): exit_code tells the status.

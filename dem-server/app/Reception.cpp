@@ -62,13 +62,15 @@ void Reception::go_on(CoupledRun& run)
 {
     coupling::ClientInfo const client = meet();
     if (!client.resume)
-        throw UserError(fmt::format("{} begins a run (this server waits for a client that goes on with one); use "
-                                    "another endpoint, or let it go on from a checkpoint",
-                                    client.name));
+        throw UserError(
+            fmt::format("{} begins a run (this server waits for a client that goes on with one); use "
+                        "another endpoint, or let it go on from a checkpoint",
+                        client.name));
     if (!sessions_.contains(client.resume->session))
-        throw UserError(fmt::format("{} goes on from a checkpoint of session {} (it is not of this run); use another "
-                                    "endpoint, or restart the server from that checkpoint",
-                                    client.name, client.resume->session));
+        throw UserError(
+            fmt::format("{} goes on from a checkpoint of session {} (it is not of this run); use another "
+                        "endpoint, or restart the server from that checkpoint",
+                        client.name, client.resume->session));
     run.go_on(*server_, client);
     fmt::print(stderr, "gimdem-server: {} has come back\n", client.name);
 }

@@ -35,9 +35,10 @@ ParticleState checked_particles(Case const& settings, Materials const& materials
 void require_checkpoint_for(coupling::ClientInfo const& client, bool has_checkpoint)
 {
     if (!client.resume || has_checkpoint) return;
-    throw UserError(fmt::format("{} goes on at {:.9g} s from the checkpoint of step {} (this server begins a run); "
-                                "start the server with --restart and that checkpoint",
-                                client.name, client.resume->time, client.resume->step));
+    throw UserError(
+        fmt::format("{} goes on at {:.9g} s from the checkpoint of step {} (this server begins a run); "
+                    "start the server with --restart and that checkpoint",
+                    client.name, client.resume->time, client.resume->step));
 }
 
 /// Steps until the client says goodbye; one that is lost without a word may come back.
@@ -80,8 +81,8 @@ void run(Case const& settings, std::filesystem::path const& folder, std::optiona
         heed_interrupts();
         fmt::print(stderr, "gimdem-server: {} connected\n", client.name);
         require_checkpoint_for(client, restart.has_value());
-        coupled = std::make_unique<CoupledRun>(settings, folder, reception.server(), client, std::move(particles),
-                                               materials);
+        coupled =
+            std::make_unique<CoupledRun>(settings, folder, reception.server(), client, std::move(particles), materials);
         coupled->start(reception.server(), restart);
         try
         {

@@ -55,6 +55,7 @@ bool gimdem::app::interrupted()
 int main(int argc, char** argv)
 {
     start_with_short_waits(argv);
+    std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is an error of writing, as a full disk is
     int exit_code = 0;
     auto const options = gimdem::app::parse_options(argc, argv, exit_code);
     if (!options) return exit_code;

@@ -48,8 +48,8 @@ std::filesystem::path checkpoint_file(std::filesystem::path const& folder, RunPo
 /// The checkpoint of this step in a run folder; empty: there is none.
 std::optional<std::filesystem::path> find_checkpoint(std::filesystem::path const& folder, std::int64_t step);
 
-/// Removes the oldest checkpoints of a run folder: all but the three newest, and none of `complete_step` or later, which
-/// is the newest one to which the other solver has its fields whole (0: none yet).
+/// Removes the oldest checkpoints of a run folder: all but the three newest, and none of `complete_step` or later,
+/// which is the newest one to which the other solver has its fields whole (0: none yet).
 void keep_newest_checkpoints(std::filesystem::path const& folder,
                              std::int64_t complete_step = std::numeric_limits<std::int64_t>::max());
 

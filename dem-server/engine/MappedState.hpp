@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What the mesh has of the particles at the end of a coupling step: part of a checkpoint, theory.md (C.12).
+/// What the mesh has of the particles at the end of a coupling step: part of a checkpoint, theory.md (C.20).
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,14 @@
 namespace gimdem
 {
 
-/// It cannot be made again from the particles: some have left since they were mapped, and the drag was that of the step.
+/// It cannot be made again from the particles: some have left since they were mapped, and the drag was that of the
+/// step.
 struct MappedState
 {
-    std::string mesh;                                       ///< mesh_hash() of the mesh that it belongs to
-    std::vector<std::int32_t> cell_of;                      ///< shape=(n_particles,)
-    std::vector<double> void_fraction, drag_coefficient;    ///< shape=(n_cells,) [1], [kg/(m^3 s)]
-    std::vector<double> momentum_source, drag_momentum;     ///< shape=(n_cells, 3) [N/m^3]
+    std::string mesh;                                     ///< mesh_hash() of the mesh that it belongs to
+    std::vector<std::int32_t> cell_of;                    ///< shape=(n_particles,)
+    std::vector<double> void_fraction, drag_coefficient;  ///< shape=(n_cells,) [1], [kg/(m^3 s)]
+    std::vector<double> momentum_source, drag_momentum;   ///< shape=(n_cells, 3) [N/m^3]
 
     bool fits(std::int64_t particles, std::int32_t cells) const;
 };

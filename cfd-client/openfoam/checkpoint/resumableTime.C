@@ -33,7 +33,7 @@ Foam::dictionary Foam::resumableTime::state() const
     dict.add("startTime", startTime_);
     dict.add("startIndex", startTimeIndex_);
     dict.add("writeIndex", writeTimeIndex_);
-    dict.add("timePrecision", Time::precision());
+    dict.add("timePrecision", Time::precision_);
     dict.add("controlDeltaT", controlDict().get<scalar>("deltaT"));
     return dict;
 }
@@ -56,7 +56,7 @@ void Foam::resumableTime::resume(const word& folder, const dictionary& state)
     startTime_ = state.get<scalar>("startTime");
     startTimeIndex_ = state.get<label>("startIndex");
     writeTimeIndex_ = state.get<label>("writeIndex");
-    Time::precision(state.get<int>("timePrecision"));
+    Time::precision_ = state.get<int>("timePrecision");
 }
 
 

@@ -84,10 +84,10 @@ public:
     /// @pre begin_step() has been called. timings tells where this fluid step spent its time.
     void end_step(Timings const& timings = {});
 
-    /// @pre send_mesh() or end_step() was the last call, and the server saves checkpoints. Has the server save its state
-    /// of now; returns when that is safe on disk. The fluid's state of now belongs to it: write it, then remember what
-    /// is returned, for ClientOptions.resume. complete_step: step of the newest checkpoint to which a fluid is whole,
-    /// 0: none; the server keeps it until a newer one is complete.
+    /// @pre send_mesh() or end_step() was the last call, and the server saves checkpoints. Has the server save its
+    /// state of now; returns when that is safe on disk. The fluid's state of now belongs to it: write it, then remember
+    /// what is returned, for ClientOptions.resume. complete_step: step of the newest checkpoint to which a fluid is
+    /// whole, 0: none; the server keeps it until a newer one is complete.
     SavedCheckpoint save_checkpoint(double time, std::int64_t complete_step);
 
     /// Why the server asks for an orderly end (Ctrl-C there), if it does: write your fields and call finish().

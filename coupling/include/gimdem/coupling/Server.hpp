@@ -52,8 +52,8 @@ struct ClientInfo
 {
     std::string name;
     FluidProperties fluid;
-    std::vector<std::string> wants;    ///< solid fields the client asks for
-    std::optional<Schedule> schedule;  ///< the client's wish, which is then in force; empty: the server's terms are
+    std::vector<std::string> wants;     ///< solid fields the client asks for
+    std::optional<Schedule> schedule;   ///< the client's wish, which is then in force; empty: the server's terms are
     std::optional<ResumePoint> resume;  ///< where the client goes on; empty: it begins a run
     bool wants_field(std::string const& field_name) const;
 };

@@ -61,12 +61,10 @@ std::vector<Path> const server_paths{
 /// The rules once more, from docs/protocol.md: the only messages that a state takes, and where they lead.
 using Allowed = std::map<std::pair<State, std::string>, State>;
 
-Allowed const client_allows{{{State::greeting, "Welcome"}, State::welcomed},
-                            {{State::meshing, "MeshAccepted"}, State::accepted},
-                            {{State::accepted, "SolidState"}, State::ready},
-                            {{State::waiting, "SolidState"}, State::solving},
-                            {{State::overlapping, "SolidState"}, State::ready},
-                            {{State::saving, "CheckpointSaved"}, State::ready}};
+Allowed const client_allows{
+    {{State::greeting, "Welcome"}, State::welcomed},    {{State::meshing, "MeshAccepted"}, State::accepted},
+    {{State::accepted, "SolidState"}, State::ready},    {{State::waiting, "SolidState"}, State::solving},
+    {{State::overlapping, "SolidState"}, State::ready}, {{State::saving, "CheckpointSaved"}, State::ready}};
 
 Allowed const server_allows{
     {{State::listening, "Hello"}, State::welcomed},   {{State::welcomed, "Mesh"}, State::meshing},
