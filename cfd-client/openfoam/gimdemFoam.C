@@ -160,7 +160,7 @@ static void simulate
         #include "setTimeStep.H"
     }
 
-    if (!runTime.writeTime())
+    if (!runTime.isWritten())
     {
         runTime.writeFields(true);
         particles.saveCheckpoint(runTime);

@@ -16,7 +16,8 @@
 
 Foam::resumableTime::resumableTime(const argList& args)
 :
-    Time(Time::controlDictName, args)
+    Time(Time::controlDictName, args),
+    writtenIndex_(timeIndex())
 {}
 
 
@@ -57,11 +58,17 @@ void Foam::resumableTime::resume(const word& folder, const dictionary& state)
     startTimeIndex_ = state.get<label>("startIndex");
     writeTimeIndex_ = state.get<label>("writeIndex");
     Time::precision_ = state.get<int>("timePrecision");
+    writtenIndex_ = timeIndex_;
 }
 
 
 void Foam::resumableTime::writeFields(const bool now)
 {
+    if (isWritten())
+    {
+        return;
+    }
+
     const label wanted = purgeWrite_;
     const unsigned int digits = IOstream::defaultPrecision();
 
@@ -77,6 +84,10 @@ void Foam::resumableTime::writeFields(const bool now)
             << "the fields of t = " << timeName() << " s could not be written"
             << " to " << timePath() << " (is the disk full?); make room and"
             << " restart from the last checkpoint" << exit(FatalError);
+    }
+    if (writeTime())
+    {
+        writtenIndex_ = timeIndex_;
     }
 }
 
