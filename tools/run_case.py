@@ -11,12 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import openfoam
 from build import build, is_built_with_cuda
-from case_folder import CLIENTS, CaseDescription, check_grid, check_openfoam_dictionaries, describe, find_case_file
-from console import UserError, openfoam_client_binary, say, server_binary, shown
+from case_folder import CaseDescription, check_grid, describe, find_case_file
+from clients import CLIENTS, Program, find_client
+from console import UserError, say, server_binary, shown
 from endpoint import Endpoint
-from meshes import copy_into, is_script, mesh_source
 from process import how_it_ended, spawn
 from record import RunRecord
 from report import print_results
@@ -27,7 +26,8 @@ from supervise import Child, Outcome, Supervisor
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("case", metavar="CASE_DIR", help="a folder with a case.toml")
-    parser.add_argument("--client", choices=CLIENTS, help="who solves the fluid (default: as case.toml says)")
+    parser.add_argument("--client", metavar="NAME", help="who solves the fluid (default: as case.toml says): "
+                        f"{', '.join(CLIENTS)}, or the path of a program of yours (docs/write-a-client.md)")
     parser.add_argument("--schedule", choices=("serial", "overlapped"), help="who waits for whom (case.toml)")
     parser.add_argument("--device", choices=("auto", "cuda", "cpu"), default="auto",
                         help="where the particles are computed")
@@ -61,12 +61,14 @@ def run(options: argparse.Namespace) -> int:
     setup(quiet=True)
     build(("gimdem-server",))
     case = choose(describe(case_file), options)
-    if case.client != "none":
-        build(("gimdemFoam",))
-        check_openfoam_dictionaries(case)
+    client = None if case.client == "none" else find_client(case.client)
+    if client:
+        if client.targets:
+            build(client.targets)
+        client.check(case)
     endpoint = Endpoint(case.endpoint)
     try:
-        return run_in_folder(case, options, endpoint)
+        return run_in_folder(case, client, options, endpoint)
     finally:
         endpoint.close()
 
@@ -75,6 +77,8 @@ def refuse_what_is_to_come(client: str | None, device: str, ranks: int) -> None:
     """Options whose meaning is settled but that nothing implements here."""
     if client == "reference":
         raise UserError("the reference client is not part of this version; use --client openfoam", 2)
+    if client and client != "none":
+        find_client(client)
     if device == "cuda" and not is_built_with_cuda():
         raise UserError("this build computes particles on the CPU only; use --device cpu, or leave it out, or build "
                         "with CUDA as docs/gpu.md says", 2)
@@ -107,6 +111,7 @@ class Run:
     """One run in its folder."""
 
     case: CaseDescription
+    client: Program | None  # None: particles alone
     folder: Path
     endpoint: Endpoint
     threads: int | None
@@ -114,7 +119,7 @@ class Run:
 
     @property
     def client_log(self) -> Path:
-        return self.folder / "log.gimdemFoam"
+        return self.folder / f"log.{self.client.name if self.client else 'none'}"
 
     @property
     def server_log(self) -> Path:
@@ -143,29 +148,30 @@ class Run:
             return spawn(command, stdout=log, stderr=stderr)
 
     def start_client(self) -> subprocess.Popen[bytes]:
-        command = [str(openfoam_client_binary()), "-case", str(self.folder), "-endpoint", self.endpoint.address]
+        assert self.client is not None
+        command = self.client.start_command(self.folder, self.endpoint.address)
         if self.restart and self.restart.fluid:
             command += ["-restart", self.restart.fluid.name]
         with self.client_log.open("ab") as log:
-            return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder, env=openfoam.environment())
+            return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder, env=self.client.environment())
 
 
-def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: Endpoint) -> int:
+def run_in_folder(case: CaseDescription, client: Program | None, options: argparse.Namespace, endpoint: Endpoint) -> int:
     restart = find_restart(case, options.restart)
-    run = Run(case, make_run_folder(case, options.output), endpoint, options.threads, restart)
-    alone = case.client == "none"
-    what = "particles alone" if alone else f"grid {case.grid or 'as it is'}, {case.schedule}"
+    run = Run(case, client, make_run_folder(case, options.output), endpoint, options.threads, restart)
+    what = "particles alone" if client is None else f"{client.name}, grid {case.grid or 'as it is'}, {case.schedule}"
     say("case", case.title)
     say("run", f"{shown(run.folder)}: {what}, until {case.until:g} s")
     copy_case(case, run.folder)
     if restart:
         restart.copy_fluid(run.folder)
         say("restart", shown(restart.checkpoint))
-    if not alone:
-        say("mesh", make_mesh(case, run.folder))
+    if client:
+        say("mesh", client.make_mesh(case, run.folder))
     record = RunRecord(run.folder, run.settings())
     start = time.monotonic()
-    outcome = Supervisor(case.timeout).run(run.start_server, endpoint.bound, None if alone else run.start_client)
+    outcome = Supervisor(case.timeout, client.name if client else "").run(
+        run.start_server, endpoint.bound, run.start_client if client else None)
     wall_time = time.monotonic() - start
     record.finish(in_words(outcome), wall_time)
     if outcome.killed or not (outcome.good() or outcome.signal):
@@ -176,14 +182,6 @@ def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: 
     if outcome.signal:
         say("stopped", f"by {signal.Signals(outcome.signal).name}, before the end")
     return exit_code(outcome)
-
-
-def make_mesh(case: CaseDescription, folder: Path) -> str:
-    """constant/polyMesh of the run, where a restart or the case has not brought one; returns one line about it."""
-    source = mesh_source(case.folder, case.grid)
-    if is_script(source) and not openfoam.has_mesh(folder):
-        return copy_into(folder, source)
-    return openfoam.make_mesh(folder)
 
 
 def in_words(outcome: Outcome) -> str:
@@ -208,7 +206,7 @@ def failure(outcome: Outcome, run: Run) -> str:
     first = outcome.first()
     lines = [f"the run failed: {how_it_ended(first.name, first.code)}"]
     for child in outcome.children():
-        told = " ".join(outcome.last_words) if child is outcome.server else openfoam.error_in(run.client_log)
+        told = " ".join(outcome.last_words) if child is outcome.server else run.client.error_in(run.client_log)
         reason = told or reason_without_words(child, child is first)
         lines += [f"  {child.name}: {reason}"] if reason else []
     logs = [log for log in (run.server_log, run.client_log) if log.exists() and log.stat().st_size]
