@@ -22,7 +22,12 @@ struct Hello
     std::optional<Schedule> schedule;
     double timeout = 0;  ///< of the client [s]
     std::optional<ResumePoint> resume;
+    bool iterates = false;
+    Rank rank;
 };
+
+/// What cannot be true of a rank, in words.
+std::optional<std::string> find_rank_fault(Rank const& rank);
 
 Message pack(Hello const& hello);
 Message pack(Welcome const& welcome);

@@ -57,6 +57,10 @@ std::string kind_name(Kind kind)
             return "Checkpoint";
         case Kind::kCheckpointSaved:
             return "CheckpointSaved";
+        case Kind::kStatusRequest:
+            return "StatusRequest";
+        case Kind::kStatus:
+            return "Status";
         case Kind::KIND_NOT_SET:
             break;
     }

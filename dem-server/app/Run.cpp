@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -23,7 +22,6 @@ namespace
 /// A mistake in the case is told before a client is waited for.
 ParticleState checked_particles(Case const& settings, Materials const& materials)
 {
-    refuse_periodic_coupled_run(settings);
     ParticleState particles = insert_particles(settings, materials);
     check_time_step(settings, materials, particles);
     check_overlaps(exec::make_execution(settings.dem.backend, settings.dem.threads), particles,
@@ -35,10 +33,9 @@ ParticleState checked_particles(Case const& settings, Materials const& materials
 void require_checkpoint_for(coupling::ClientInfo const& client, bool has_checkpoint)
 {
     if (!client.resume || has_checkpoint) return;
-    throw UserError(
-        fmt::format("{} goes on at {:.9g} s from the checkpoint of step {} (this server begins a run); "
-                    "start the server with --restart and that checkpoint",
-                    client.name, client.resume->time, client.resume->step));
+    throw UserError(fmt::format("{} goes on at {:.9g} s from the checkpoint of step {} (this server begins a run); "
+                                "start the server with --restart and that checkpoint",
+                                client.name, client.resume->time, client.resume->step));
 }
 
 /// Steps until the client says goodbye; one that is lost without a word may come back.
@@ -48,56 +45,72 @@ void couple(Reception& reception, CoupledRun& run, double grace_time)
     {
         try
         {
-            return run.couple(reception.server());
+            return run.couple();
         }
         catch (coupling::CouplingError const& error)
         {
             if (grace_time == 0 || !reception.server().has_lost_client()) throw;
-            fmt::print(stderr, "gimdem-server: {}; waiting {:g} s for a client that goes on\n", error.what(),
-                       grace_time);
             die_of_interrupts();
-            bool const is_back = reception.meet_again(run, grace_time);
+            bool const is_back = reception.meet_again(run, grace_time, error.what());
             heed_interrupts();
             if (!is_back) throw;
         }
     }
 }
 
+/// All with the first client.
+void serve(Reception& reception, CoupledRun& run, std::optional<std::filesystem::path> const& restart,
+           double grace_time)
+{
+    run.start(restart);
+    try
+    {
+        couple(reception, run, grace_time);
+    }
+    catch (...)
+    {
+        run.finish_after_failure();
+        throw;
+    }
+    run.finish();
+}
+
 }  // namespace
 
 void run(Case const& settings, std::filesystem::path const& folder, std::optional<std::filesystem::path> const& restart,
-         double grace_time)
+         double grace_time, output::TraceChoice const& trace)
 {
+    refuse_periodic_coupled_run(settings);
     std::filesystem::create_directories(folder);
+    RunEvents events(folder);
     Materials const materials(settings);
     ParticleState particles = checked_particles(settings, materials);
     std::unique_ptr<CoupledRun> coupled;
-    Reception reception(settings, [&](auto const& request) { return coupled->save(request); });
-    fmt::print(stderr, "gimdem-server: {} particles, waiting for a client at {}\n", particles.count(),
-               reception.server().endpoint());
+    Reception reception(settings, folder, events, [&](auto const& request) { return coupled->save(request); });
+    events.say(
+        "listening",
+        fmt::format("{} particles, waiting for a client at {}", particles.count(), reception.server().endpoint()),
+        {{"version", GIMDEM_VERSION}, {"case", settings.title}, {"endpoint", reception.server().endpoint()}});
     try
     {
         coupling::ClientInfo const client = reception.meet();
         heed_interrupts();
-        fmt::print(stderr, "gimdem-server: {} connected\n", client.name);
+        events.say("client_connected", client.name + " connected", {{"client", client.name}});
         require_checkpoint_for(client, restart.has_value());
-        coupled =
-            std::make_unique<CoupledRun>(settings, folder, reception.server(), client, std::move(particles), materials);
-        coupled->start(reception.server(), restart);
-        try
-        {
-            couple(reception, *coupled, grace_time);
-        }
-        catch (...)
-        {
-            coupled->finish_after_failure(reception.server());
-            throw;
-        }
-        coupled->finish(reception.server());
+        coupled = std::make_unique<CoupledRun>(settings, folder, reception.server(), client, std::move(particles),
+                                               materials, events, trace);
+        serve(reception, *coupled, restart, grace_time);
+        events.note("finished", reception.server().goodbye_reason());
     }
     catch (UserError const& error)
     {
         reception.server().abort(error.what());
+        events.fail(error.what());
+        throw;
+    }
+    catch (std::exception const& error)
+    {
+        events.fail(error.what());
         throw;
     }
 }

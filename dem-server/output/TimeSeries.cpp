@@ -59,14 +59,21 @@ void TimeSeries::append(std::span<double const> values)
 }
 
 // A row at the very time is written again; its time may differ in the last bits.
-std::int64_t TimeSeries::keep_before(double time)
+std::int64_t TimeSeries::keep_before(double time, int column)
 {
+    auto const time_of = [=](std::string const& row)
+    {
+        std::size_t at = 0;
+        for (int k = 0; k < column; ++k)
+            at = row.find(',', at) + 1;
+        return std::strtod(row.c_str() + at, nullptr);
+    };
     std::ifstream in(file_);
     std::string line;
     std::getline(in, line);
     std::size_t bytes = line.size() + 1;
     std::int64_t rows = 0;
-    for (; std::getline(in, line) && std::strtod(line.c_str(), nullptr) < time - 1e-9 * std::abs(time); ++rows)
+    for (; std::getline(in, line) && time_of(line) < time - 1e-9 * std::abs(time); ++rows)
         bytes += line.size() + 1;
     if (::ftruncate(descriptor_.get(), static_cast<::off_t>(bytes)) != 0) fail_with_errno("write", file_);
     return rows;

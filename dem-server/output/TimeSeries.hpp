@@ -33,8 +33,8 @@ public:
     /// @pre values.size() is the number of columns (else std::invalid_argument).
     void append(std::span<double const> values);
 
-    /// Drops the rows from `time` on, which is the first column, [s]. Returns how many are left.
-    std::int64_t keep_before(double time);
+    /// Drops the rows from `time` [s] on, which this column has. Returns how many are left.
+    std::int64_t keep_before(double time, int column = 0);
 
     std::filesystem::path const& file() const { return file_; }
 

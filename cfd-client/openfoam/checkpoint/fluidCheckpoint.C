@@ -138,6 +138,14 @@ std::optional<ResumePoint> Foam::fluidCheckpoint::resume
         return std::nullopt;
     }
 
+    if (Pstream::parRun())
+    {
+        FatalErrorInFunction
+            << "-restart with -parallel (checkpoints of several processes are"
+            << " not saved); run one process, or run the case from its start"
+            << exit(FatalError);
+    }
+
     const fileName path(runTime.path());
     const std::vector<Candidate> all(candidates(path));
     const Candidate one(choose(all, path, args.opt<word>("restart")));

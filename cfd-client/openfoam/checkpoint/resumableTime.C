@@ -62,7 +62,7 @@ void Foam::resumableTime::resume(const word& folder, const dictionary& state)
 }
 
 
-void Foam::resumableTime::writeFields(const bool now)
+void Foam::resumableTime::writeFields()
 {
     if (isWritten())
     {
@@ -74,7 +74,7 @@ void Foam::resumableTime::writeFields(const bool now)
 
     purgeWrite_ = 0;
     IOstream::defaultPrecision(17);
-    const bool good = now ? writeNow() : write();
+    const bool good = writeNow();
     IOstream::defaultPrecision(digits);
     purgeWrite_ = wanted;
 
@@ -85,10 +85,7 @@ void Foam::resumableTime::writeFields(const bool now)
             << " to " << timePath() << " (is the disk full?); make room and"
             << " restart from the last checkpoint" << exit(FatalError);
     }
-    if (writeTime())
-    {
-        writtenIndex_ = timeIndex_;
-    }
+    writtenIndex_ = timeIndex_;
 }
 
 

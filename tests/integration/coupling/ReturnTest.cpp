@@ -66,7 +66,7 @@ protected:
     /// A scripted client that is killed behind its first checkpoint, which is of step 20; returns that.
     ResumePoint lose_client(ServerProcess& server)
     {
-        Process client({GIMDEM_SCRIPTED_CLIENT, server.endpoint(), "40", std::to_string(last), "20"},
+        Process client({GIMDEM_SCRIPTED_CLIENT, server.endpoint(), "40", std::to_string(last), "", "20"},
                        folder / "client.txt");
         EXPECT_TRUE(client.wait_for_output("step 33\n", soon)) << client.output();
         client.signal(SIGKILL);

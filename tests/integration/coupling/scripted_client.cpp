@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// A client in a process of its own, to be killed and stopped.
 ///
-/// Usage: scripted_client <endpoint> <time-out [s]> <steps> [<steps between checkpoints>]
+/// Usage: scripted_client <endpoint> <time-out [s]> <steps> [<folder of keys, or ""> [<steps between checkpoints>]]
 /// Exit codes: 0 orderly end, 1 a fault, whose text goes to standard error, 2 wrong usage.
 #include <cstdlib>
 #include <iostream>
@@ -14,7 +14,7 @@
 namespace
 {
 
-void run(std::string const& endpoint, double timeout, int steps, int steps_between_checkpoints)
+void run(std::string const& endpoint, double timeout, int steps, std::string const& keys, int steps_between_checkpoints)
 {
     using namespace gimdem;
     double constexpr dt = 1e-4;  // [s]
@@ -22,6 +22,7 @@ void run(std::string const& endpoint, double timeout, int steps, int steps_betwe
     options.endpoint = endpoint;
     options.name = "scripted client";
     options.timeout = timeout;
+    options.keys = keys;
     coupling::Client client(options);
     client.connect(test::air);
     // 1024 cells: vector fields are large enough for shared memory.
@@ -47,10 +48,10 @@ void run(std::string const& endpoint, double timeout, int steps, int steps_betwe
 
 int main(int argc, char** argv)
 {
-    if (argc != 4 && argc != 5) return 2;
+    if (argc < 4 || argc > 6) return 2;
     try
     {
-        run(argv[1], std::atof(argv[2]), std::atoi(argv[3]), argc == 5 ? std::atoi(argv[4]) : 0);
+        run(argv[1], std::atof(argv[2]), std::atoi(argv[3]), argc > 4 ? argv[4] : "", argc > 5 ? std::atoi(argv[5]) : 0);
         return 0;
     }
     catch (std::exception const& error)
