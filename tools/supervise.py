@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import FrameType
 
+from process import kill_session
 from relay import Relay
 
 POLL = 0.1  # [s]
@@ -37,7 +38,11 @@ class Child:
         return self.process.returncode
 
     def tell(self, number: int) -> None:
-        if self.alive():
+        if not self.alive():
+            return
+        if number == signal.SIGKILL:
+            kill_session(self.process.pid)
+        else:
             self.process.send_signal(number)
 
 
