@@ -237,7 +237,20 @@ void Foam::couplingClient::connect
             << " leave out fluid_steps, or choose another schedule"
             << exit(FatalError);
     }
-    fixedPoint_.reset(new FluidFixedPoint(welcome.iteration));
+    fixedPoint_.reset
+    (
+        new FluidFixedPoint
+        (
+            welcome.iteration,
+            [](Span<double> numbers)
+            {
+                for (double& number : numbers)
+                {
+                    reduce(number, sumOp<scalar>());
+                }
+            }
+        )
+    );
 }
 
 
