@@ -14,9 +14,11 @@ import bench_faults
 import bench_gim
 import bench_mapping
 import bench_noise
+import bench_overlap
 import fuzz
 import meshes
 import run_case
+import status
 from build import build
 from console import ROOT, UserError, build_dir, say, shown
 from packages import setup
@@ -37,13 +39,15 @@ def parser() -> argparse.ArgumentParser:
 
     run_case.add_options(add("run", run_case.run, "install what is missing, build, run a case, plot and sum up"))
     meshes.add_options(add("mesh", meshes.run, "make the mesh of a case without running it"))
+    status.add_options(add("status", status.run, "how a run stands: speed, balance, time left"))
     add("test", run_tests, f"build everything and run the tests, except {SKIPPED_LABELS}; further options go to ctest")
     bench = add("bench", run_benchmarks, "run the benchmarks")
     bench.add_argument("name", nargs="?",
-                       help="dem, mapping, noise, faults, gim-figures (the figures of the method's paper), or a part of a program's name")
+                       help="dem, mapping, noise, overlap, faults, gim-figures (the figures of the method's paper), or a part of a program's name")
     bench_dem.add_options(bench)
     bench_mapping.add_options(bench)
     bench_noise.add_options(bench)
+    bench_overlap.add_options(bench)
     bench_faults.add_options(bench)
     fuzz.add_options(add("fuzz", fuzz.run, "throw random messages at the coupling library, with sanitizers"))
     keys = add("keys", make_keys, "make keys for a server and a client on different machines")
@@ -81,6 +85,8 @@ def run_benchmarks(options: argparse.Namespace) -> int:
         return bench_mapping.run(options, parts_of(options, bench_mapping.PARTS))
     if options.name == "noise":
         return bench_noise.run(options)
+    if options.name == "overlap":
+        return bench_overlap.run(options)
     if options.name == "faults":
         return bench_faults.run(options)
     if options.name == "gim-figures":

@@ -71,6 +71,13 @@ void check_size(FieldEntry<Fields> const& entry, Span<double const> values, std:
                                              "); pass the whole field, the peer needs it");
 }
 
+[[noreturn]] void refuse_divergence(std::string const& name, unsigned components, Span<double const> values,
+                                    std::size_t i)
+{
+    throw CouplingError(Fault::user, not_finite_text(name, components, values, i) +
+                                         " (the solution has diverged); try a smaller time step");
+}
+
 }  // namespace
 
 FieldChoice<FluidFields> choose_fluid_fields(std::vector<std::string> const& names, Fault fault)
@@ -102,6 +109,17 @@ void lay_out_fields(Message& message, FieldChoice<Fields> const& choice, Fields 
     }
 }
 
+template <class Fields>
+void check_fields(FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count)
+{
+    for (auto const& entry : choice)
+    {
+        Span<double const> const values = fields.*entry.values;
+        check_size(entry, values, cell_count);
+        if (auto const i = first_not_finite(values)) refuse_divergence(entry.name, entry.components, values, *i);
+    }
+}
+
 void fill(Message& message, std::function<void(std::size_t)> const& filled)
 {
     for (Unfilled const& field : message.unfilled)
@@ -113,9 +131,7 @@ void fill(Message& message, std::function<void(std::size_t)> const& filled)
             continue;
         }
         v1::ArrayHeader const& header = message.envelope.arrays(static_cast<int>(field.array));
-        std::size_t const i = *first_not_finite(field.values);
-        throw CouplingError(Fault::user, not_finite_text(header.name(), header.components(), field.values, i) +
-                                             " (the solution has diverged); try a smaller time step");
+        refuse_divergence(header.name(), header.components(), field.values, *first_not_finite(field.values));
     }
     message.unfilled.clear();
 }
@@ -159,6 +175,7 @@ template void lay_out_fields(Message&, FieldChoice<FluidFields> const&, FluidFie
                              transport::SendMemory const&);
 template void lay_out_fields(Message&, FieldChoice<SolidFields> const&, SolidFields const&, std::size_t,
                              transport::SendMemory const&);
+template void check_fields(FieldChoice<SolidFields> const&, SolidFields const&, std::size_t);
 template std::size_t shared_bytes(FieldChoice<FluidFields> const&, std::size_t);
 template std::size_t shared_bytes(FieldChoice<SolidFields> const&, std::size_t);
 template FluidFields view_fields(Message const&, FieldChoice<FluidFields> const&, std::size_t);

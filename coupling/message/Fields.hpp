@@ -51,6 +51,10 @@ template <class Fields>
 void lay_out_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
                     transport::SendMemory const& memory);
 
+/// Fault::user if one of the chosen fields has not cell_count rows, or has a NaN or infinity in it.
+template <class Fields>
+void check_fields(FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count);
+
 /// Copies what is unfilled; calls filled(n) when n arrays of the message are. Fault::user for a NaN or infinity.
 void fill(Message& message, std::function<void(std::size_t)> const& filled = {});
 

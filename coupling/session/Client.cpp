@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "gimdem/coupling/Status.hpp"
 #include "message/Greeting.hpp"
 #include "message/MeshMessage.hpp"
 #include "message/StepMessages.hpp"
+#include "session/ClientRecord.hpp"
 #include "session/ExchangeClock.hpp"
 #include "session/Options.hpp"
 #include "session/Session.hpp"
@@ -33,12 +35,16 @@ struct Client::Impl
     void connect(FluidProperties const& fluid);
     void send_mesh(MeshView const& mesh);
     void begin_step(Step const& step, FluidFields const& fluid, std::vector<Monitor> const& monitors);
-    void end_step(Timings const& timings);
+    void iterate_step(FluidFields const& estimate, double residual);
+    void end_step(Timings const& timings, double residual);
+    void send_fluid(Event call, FluidState const& fluid, Time entered);
+    Event begin_event() const;
     void finish(std::string const& reason);
 
+    void check_rank_endpoints();
     session::Letter receive(std::string const& awaited);
     Time take_solid();
-    bool is_serial() const { return welcome.schedule == Schedule::serial; }
+    bool overlaps() const { return welcome.schedule == Schedule::overlapped; }
 
     /// Runs a call; a fault that leaves the session alive is remembered, in case the program ends because of it.
     template <class Body>
@@ -52,6 +58,7 @@ struct Client::Impl
         catch (CouplingError const& error)
         {
             session.note(error.what());
+            record.log().write(LogLevel::error, "fault", error.what());
             throw;
         }
     }
@@ -63,16 +70,22 @@ struct Client::Impl
     session::SharedFields shared;    ///< outlives the messages that lie in it
     message::Message solid_message;  ///< holds the bytes that the spans of solid show
     message::SolidState solid;
-    Timings previous;  ///< of the last fluid step
-    std::int64_t step = 0;
+    Timings previous;              ///< of the last fluid step
+    double previous_residual = 0;  ///< of the last pass of the step before
+    Step step;
+    int pass = 0;  ///< of this step
     session::ExchangeClock clock;
+    session::ClientRecord record;
+    Time fluid_sent;  ///< of this step
     session::Session session;
 };
 
 Client::Impl::Impl(ClientOptions given)
-    : options(std::move(given)), session(transport::Role::client, options.name, options.timeout)
+    : options(std::move(given)),
+      session(transport::Role::client, session::name_of_rank(options.name, options.rank), options.timeout)
 {
     session::require_name(options.name, "ClientOptions.name");
+    session::require_rank(options.rank);
     session::require_seconds(options.timeout, message::min_timeout, "ClientOptions.timeout");
     session::require_seconds(options.connect_time, 0, "ClientOptions.connect_time");
     session::require_seconds(options.step_time, message::min_timeout, "ClientOptions.step_time");
@@ -87,9 +100,16 @@ void Client::Impl::connect(FluidProperties const& fluid)
     session.open(transport::Socket::connect(options.endpoint, keys));
     session.advance(Event::connect);
     shared.want(options.shared_memory && session.is_ipc());
-    message::Message hello =
-        message::pack(message::Hello{options.name, fluid, options.wants, options.schedule, options.timeout});
+    message::Message hello = message::pack(message::Hello{.name = options.name,
+                                                          .fluid = fluid,
+                                                          .wants = options.wants,
+                                                          .schedule = options.schedule,
+                                                          .timeout = options.timeout,
+                                                          .iterates = options.iterates,
+                                                          .rank = options.rank});
     shared.offer(hello);
+    record.stamp(hello);
+    Time const hello_sent = Clock::now();
     session.send(std::move(hello));
 
     if (!session.wait_for_contact(Clock::now() + ticks(options.connect_time)))
@@ -100,8 +120,16 @@ void Client::Impl::connect(FluidProperties const& fluid)
     session::Letter const letter = receive("Welcome");
     welcome = session.read([&] { return message::unpack_welcome(letter.message); });
     session.set_peer_name(welcome.server);
+    check_rank_endpoints();
     shared.agree(letter.message);
+    session.read([&] { record.heard(letter.message, hello_sent, letter.arrival); });
     terms.fluid = session.read([&] { return message::choose_fluid_fields(welcome.needs, Fault::protocol); });
+    record.log().write(LogLevel::info, "connected", "connected to " + welcome.server,
+                       {{"endpoint", options.endpoint},
+                        {"title", welcome.title},
+                        {"schedule", name_of(welcome.schedule)},
+                        {"clock_offset_s", record.offset() ? record.offset()->offset : not_known},
+                        {"clock_uncertainty_s", record.offset() ? record.offset()->uncertainty : not_known}});
 }
 
 void Client::Impl::send_mesh(MeshView const& mesh)
@@ -120,51 +148,102 @@ void Client::Impl::send_mesh(MeshView const& mesh)
     session.use(shared.use_if_confirmed(letter.message, terms.memory));
     session.use(session.read([&] { return shared.map_announced(letter.message); }));
     take_solid();
+    record.log().write(LogLevel::info, "mesh_accepted", "the server holds the mesh",
+                       {{"cells", static_cast<double>(mesh.cell_count)}});
 }
 
 void Client::Impl::begin_step(Step const& next, FluidFields const& fluid, std::vector<Monitor> const& monitors)
 {
-    Time const entered = Clock::now();
-    Event const call = is_serial() ? Event::begin_serial_step : Event::begin_overlapped_step;
-    session.require(call);
-
     ExchangeTimes const& so_far = clock.times();
-    message::Message message =
-        message::lay_out(FluidState{next, fluid, monitors, previous, so_far.exchange, so_far.waiting}, terms);
+    send_fluid(begin_event(), {next, fluid, monitors, previous, so_far.exchange, so_far.waiting, 0, previous_residual},
+               Clock::now());
+}
+
+void Client::Impl::iterate_step(FluidFields const& estimate, double residual)
+{
+    ExchangeTimes const& so_far = clock.times();
+    send_fluid(Event::iterate_step, {step, estimate, {}, previous, so_far.exchange, so_far.waiting, pass + 1, residual},
+               Clock::now());
+}
+
+Event Client::Impl::begin_event() const
+{
+    switch (welcome.schedule)
+    {
+        case Schedule::overlapped:
+            return Event::begin_overlapped_step;
+        case Schedule::iterated:
+            return Event::begin_iterated_step;
+        default:
+            return Event::begin_serial_step;
+    }
+}
+
+/// Sends a fluid and, unless both compute at once, takes its answer.
+void Client::Impl::send_fluid(Event call, FluidState const& fluid, Time entered)
+{
+    session.require(call);
+    message::Message message = message::lay_out(fluid, terms);
     shared.confirm(message);
+    record.put_into_fluid(message);
     session.prepare(message);
     session.look_for_trouble("the fluid of its program");
-    step = next.number;
-    session.set_step(step);
+    step = fluid.step;
+    pass = fluid.pass;
+    session.set_step(step.number);
     session.advance(call);
     session.send(std::move(message));
     terms.memory.message_sent();
-    clock.sent(entered, Clock::now());
+    fluid_sent = Clock::now();
+    clock.sent(entered, fluid_sent);
+    record.began(step.number, entered, fluid_sent);
 
-    if (!is_serial()) return;
-    take_solid();
-    clock.answered_serial(Clock::now(), solid.busy_time);
+    if (overlaps()) return;
+    Time const arrival = take_solid();
+    Time const left = Clock::now();
+    double const waiting = clock.answered_serial(left, solid.busy_time);
+    record.began(step.number, entered, left);
+    record.waited_in_begin(fluid_sent, arrival, waiting);
 }
 
-void Client::Impl::end_step(Timings const& timings)
+void Client::Impl::end_step(Timings const& timings, double residual)
 {
     Time const entered = Clock::now();
     session.require(Event::end_step);
     session.advance(Event::end_step);
     previous = timings;
+    previous_residual = residual;
 
-    if (is_serial()) return;
+    if (!overlaps()) return record.ended(entered, Clock::now(), 0);
     Time const arrival = take_solid();
-    clock.answered_overlapped(entered, arrival, Clock::now(), solid.busy_time);
+    Time const left = Clock::now();
+    record.ended(entered, left, clock.answered_overlapped(entered, arrival, left, solid.busy_time));
 }
 
 void Client::Impl::finish(std::string const& reason)
 {
     session.require(Event::finish);
     bool const greeted = session.state() != State::created && session.state() != State::finished;
-    if (greeted) session.send(message::pack_goodbye(reason));
+    message::Message goodbye = message::pack_goodbye(reason);
+    record.put_into_goodbye(goodbye, previous);
+    if (greeted) session.send(std::move(goodbye));
+    record.log().write(LogLevel::info, "finished", reason,
+                       {{"steps", static_cast<double>(step.number)},
+                        {"exchange_s", clock.times().exchange},
+                        {"waiting_s", clock.times().waiting},
+                        {"bytes", clock.times().bytes}});
     session.advance(Event::finish);
     session.close();
+}
+
+/// A server of protocol 1.0 would take rank 0 for the whole client.
+void Client::Impl::check_rank_endpoints()
+{
+    auto const expected = static_cast<std::size_t>(options.rank.number == 0 ? options.rank.count - 1 : 0);
+    if (welcome.rank_endpoints.size() == expected) return;
+    session.fail(Fault::version, session.peer_name() + " told endpoints for " +
+                                     std::to_string(welcome.rank_endpoints.size()) + " more ranks instead of " +
+                                     std::to_string(expected) + "; update it, or run one process");
 }
 
 session::Letter Client::Impl::receive(std::string const& awaited)
@@ -175,13 +254,17 @@ session::Letter Client::Impl::receive(std::string const& awaited)
 /// Receives the solid of the current step; returns when it arrived.
 Time Client::Impl::take_solid()
 {
-    session::Letter letter = receive("SolidState of step " + std::to_string(step));
-    if (letter.message.envelope.step() != step)
+    std::string const awaited =
+        "step " + std::to_string(step.number) + (pass > 0 ? ", pass " + std::to_string(pass) : "");
+    session::Letter letter = receive("SolidState of " + awaited);
+    v1::Envelope const& envelope = letter.message.envelope;
+    if (envelope.step() != step.number || envelope.iteration() != pass)
         session.fail(Fault::protocol, message::describe(letter.message) + " from " + session.peer_name() +
-                                          " is out of order (it should answer step " + std::to_string(step) +
+                                          " is out of order (it should answer " + awaited +
                                           "); the two programs do not fit together, see docs/protocol.md");
     session.read([&] { shared.attach(letter.message); });
     solid = session.read([&] { return message::unpack_solid_state(letter.message, terms); });
+    session.read([&] { record.heard(letter.message, fluid_sent, letter.arrival); });
     solid_message = std::move(letter.message);
     return letter.arrival;
 }
@@ -208,9 +291,15 @@ SolidFields const& Client::begin_step(Step const& step, FluidFields const& fluid
     return impl_->solid.fields;
 }
 
-void Client::end_step(Timings const& timings)
+SolidFields const& Client::iterate_step(FluidFields const& estimate, double residual)
 {
-    impl_->guard([&] { impl_->end_step(timings); });
+    impl_->guard([&] { impl_->iterate_step(estimate, residual); });
+    return impl_->solid.fields;
+}
+
+void Client::end_step(Timings const& timings, double residual)
+{
+    impl_->guard([&] { impl_->end_step(timings, residual); });
 }
 
 void Client::finish(std::string const& reason)
@@ -220,6 +309,14 @@ void Client::finish(std::string const& reason)
 
 void Client::abort(std::string const& reason) noexcept
 {
+    try
+    {
+        impl_->record.log().write(LogLevel::error, "aborted", reason);
+    }
+    catch (std::exception const&)
+    {
+        // The log is of no use to a program that is out of memory.
+    }
     impl_->session.abort(Fault::user, reason);
 }
 

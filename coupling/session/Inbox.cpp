@@ -82,6 +82,12 @@ bool Inbox::has_ended() const
     return ending_.has_value();
 }
 
+std::optional<transport::Ending> Inbox::ending() const
+{
+    std::lock_guard<std::mutex> const lock(mutex_);
+    return ending_;
+}
+
 bool Inbox::has_contact() const
 {
     std::lock_guard<std::mutex> const lock(mutex_);

@@ -14,6 +14,7 @@
 #include "message/Control.hpp"
 #include "session/Inbox.hpp"
 #include "session/States.hpp"
+#include "session/StatusDesk.hpp"
 #include "transport/Channel.hpp"
 #include "transport/Mailbox.hpp"
 
@@ -72,7 +73,11 @@ public:
     /// The next message, checked against the state table. awaited: what we wait for, in words.
     Letter receive(std::string const& awaited, Time deadline, double patience);
     /// False if the peer has not appeared by then.
-    bool wait_for_contact(Time deadline) { return inbox_.wait_for_contact(deadline); }
+    bool wait_for_contact(Time deadline);
+    /// What receive() and wait_for_contact() call every 20 ms while nothing comes; what it throws ends the waiting.
+    void set_watch(std::function<void()> watch) { watch_ = std::move(watch); }
+    /// Throws if the peer is gone, or has sent what is not allowed now; leaves unread what it has sent otherwise.
+    void look_for_loss(std::string const& awaited);
     /// Throws what receive() would throw at once: a fault that is known before we send more.
     void look_for_trouble(std::string const& awaited);
 
@@ -81,6 +86,9 @@ public:
     auto read(Unpack unpack) -> decltype(unpack());
     /// Remembers a fault that did not end the session, as the likely reason if it ends soon.
     void note(std::string const& text) { last_fault_ = text; }
+
+    /// Server: what it answers to a StatusRequest.
+    StatusDesk& status_desk() { return desk_; }
 
     /// Ends the session: tells the peer, and throws.
     [[noreturn]] void fail(Fault fault, std::string const& text);
@@ -99,8 +107,10 @@ public:
 private:
     bool is_over() const;
     Delivery next_letter(Time deadline);
+    Delivery watched_letter(Time deadline);
     std::optional<Letter> take_post();
     void stamp(message::Message& message) const;
+    void note_heard(Time arrival);
     void fall(std::string const& why);
     void tell(Fault fault, std::string const& reason);
     void check_letter(Letter const& letter, std::string const& awaited);
@@ -117,6 +127,8 @@ private:
     transport::Frames on_heartbeat_due() const;
     void on_note(std::string const& text);
     transport::Frames on_stranger(transport::Frames frames) const;
+    std::optional<transport::Frames> on_question(transport::Frames& frames);
+    Status status() const;
 
     Role const role_;
     std::string const name_;
@@ -131,17 +143,21 @@ private:
 
     mutable std::mutex mutex_;  ///< guards what follows
     State state_;
+    Time state_since_ = transport::Clock::now();
+    std::optional<Time> heard_;  ///< the peer, the last time
     std::int64_t step_ = 0;
     std::uint64_t progress_ = 0;
     std::string peer_;  ///< name
     std::string connection_note_;
     message::Heartbeat peer_heartbeat_;  ///< the last one
 
+    StatusDesk desk_;
     Inbox inbox_;
     std::unique_ptr<transport::Outbox> outbox_;    ///< null: everything goes through the channel
     std::unique_ptr<transport::Postbox> postbox_;  ///< null: everything comes through the channel
     bool is_announced_ = false;                    ///< prepare() told the peer
     std::optional<message::Message> incoming_;     ///< announced by the peer, perhaps not complete yet
+    std::function<void()> watch_;
     std::unique_ptr<transport::Channel> channel_;  ///< last: its thread uses the rest
 };
 

@@ -78,6 +78,7 @@ void Session::fall(std::string const& why)
     last_fault_ = why;
     std::lock_guard<std::mutex> const lock(mutex_);
     state_ = State::failed;
+    state_since_ = transport::Clock::now();
     ++progress_;
 }
 

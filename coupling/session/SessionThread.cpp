@@ -14,6 +14,7 @@ using message::Message;
 
 std::optional<double> Session::on_frames(transport::Frames frames, Time arrival)
 {
+    note_heard(arrival);
     try
     {
         std::size_t const bytes = transport::byte_count(frames);

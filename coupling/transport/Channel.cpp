@@ -17,8 +17,10 @@ using namespace std::chrono_literals;
 auto constexpr probe_time = 500ms;
 auto constexpr probe_interval = 10ms;
 
-/// Read in one turn, so that a flood of messages does not keep us from our heartbeats.
-std::size_t constexpr most_parcels = 256;
+/// Messages that are read before heartbeats and what is to be sent have their turn again, whatever strangers send.
+int constexpr messages_per_turn = 64;
+/// Read before the end, in search of the last words of the peer.
+int constexpr last_messages = 1024;
 
 }  // namespace
 
@@ -95,7 +97,7 @@ void Channel::turn()
     tell_notes();
     liveness_.turn(Clock::now());
     send_queued();
-    receive_all();
+    receive_some(messages_per_turn);
     if (broke) handle_broken_connection();
     if (socket_.was_refused()) end({Ending::Kind::refused, 0, ""});
 
@@ -122,9 +124,9 @@ void Channel::tell_notes()
         if (hooks_.note) hooks_.note(text);
 }
 
-void Channel::receive_all()
+void Channel::receive_some(int most)
 {
-    for (std::size_t count = 0; count < most_parcels; ++count)
+    for (int k = 0; k < most; ++k)
     {
         auto parcel = socket_.receive();
         if (!parcel) return;
@@ -132,8 +134,17 @@ void Channel::receive_all()
     }
 }
 
+bool Channel::answer_question(Parcel& parcel)
+{
+    if (!hooks_.answer_question) return false;
+    auto answer = hooks_.answer_question(parcel.frames);
+    if (answer && !answer->empty()) socket_.send(parcel.sender, *answer);
+    return answer.has_value();
+}
+
 void Channel::receive_from(Parcel parcel, Time now)
 {
+    if (answer_question(parcel)) return;
     if (!liveness_.has_contact())
     {
         if (parcel.frames.empty() || !hooks_.may_open(parcel.frames.front())) return;
@@ -169,7 +180,7 @@ void Channel::beat(Time now)
 void Channel::lose()
 {
     lost_ = true;
-    receive_all();  // the last words of the peer, which may explain it
+    receive_some(last_messages);  // the last words of the peer, which may explain it
     end({});
 }
 

@@ -44,6 +44,9 @@ struct ChannelHooks
     std::function<Frames(Frames)> answer_stranger;
     /// Something for the user's eyes, Socket::take_notes(). May be empty.
     std::function<void(std::string const&)> note;
+    /// Anybody, who does not become the peer by this, may ask something of the server. Returns the answer, which may be
+    /// empty, if this is a question; else leaves the frames as they are. Null: nobody may ask.
+    std::function<std::optional<Frames>(Frames&)> answer_question;
     /// Nothing more will come. Called once.
     std::function<void(Ending)> ended;
 };
@@ -73,7 +76,8 @@ private:
     void turn();
     void send_queued();
     void tell_notes();
-    void receive_all();
+    void receive_some(int most);
+    bool answer_question(Parcel& parcel);
     void receive_from(Parcel parcel, Time now);
     void handle_broken_connection();
     void beat(Time now);
