@@ -51,7 +51,7 @@ private:
         LagError lag;
     };
 
-    void close(coupling::FluidState const& next, Time now, double server_waiting);
+    void close(coupling::FluidState const& next, Time now, double waited);
 
     bool iterates_;
     output::TimeSeries series_;
