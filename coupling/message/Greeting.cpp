@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "message/Greeting.hpp"
 
+#include <algorithm>
+
 #include "message/Fields.hpp"
 
 namespace gimdem::coupling::message
@@ -28,6 +30,22 @@ std::optional<Schedule> from_wire(v1::Schedule schedule)
     }
 }
 
+using WireEncodings = google::protobuf::RepeatedField<int>;
+
+void pack_encodings(Encodings const& encodings, WireEncodings& body)
+{
+    if (encodings.sparse) body.Add(v1::ENCODING_SPARSE);
+    if (encodings.float32) body.Add(v1::ENCODING_FLOAT32);
+    if (encodings.lz4) body.Add(v1::ENCODING_LZ4);
+}
+
+/// Those that a later version adds are not for us.
+Encodings unpack_encodings(WireEncodings const& body)
+{
+    auto const has = [&](v1::Encoding encoding) { return std::find(body.begin(), body.end(), encoding) != body.end(); };
+    return {has(v1::ENCODING_SPARSE), has(v1::ENCODING_FLOAT32), has(v1::ENCODING_LZ4)};
+}
+
 }  // namespace
 
 Message pack(Hello const& hello)
@@ -41,6 +59,7 @@ Message pack(Hello const& hello)
         body.add_wants(name);
     if (hello.schedule) body.set_schedule(to_wire(*hello.schedule));
     body.set_timeout(hello.timeout);
+    pack_encodings(hello.encodings, *body.mutable_encodings());
     return message;
 }
 
@@ -54,6 +73,7 @@ Message pack(Welcome const& welcome)
     body.set_end_time(welcome.end_time);
     for (std::string const& name : welcome.needs)
         body.add_needs(name);
+    pack_encodings(welcome.encodings, *body.mutable_encodings());
     return message;
 }
 
@@ -66,6 +86,7 @@ Hello unpack_hello(Message const& message)
     hello.wants.assign(body.wants().begin(), body.wants().end());
     hello.schedule = from_wire(body.schedule());
     hello.timeout = body.timeout();
+    hello.encodings = unpack_encodings(body.encodings());
 
     check_name(hello.name, "Hello: the client's name");
     check_number(hello.fluid.density, 0, "Hello: density");
@@ -87,6 +108,7 @@ Welcome unpack_welcome(Message const& message)
     welcome.schedule = *schedule;
     welcome.end_time = body.end_time();
     welcome.needs.assign(body.needs().begin(), body.needs().end());
+    welcome.encodings = unpack_encodings(body.encodings());
 
     check_name(welcome.server, "Welcome: the server's name");
     check_number(welcome.end_time, 0, "Welcome: end time");

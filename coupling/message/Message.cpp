@@ -53,6 +53,8 @@ std::string kind_name(Kind kind)
             return "Error";
         case Kind::kGoodbye:
             return "Goodbye";
+        case Kind::kFluidWanted:
+            return "FluidWanted";
         case Kind::KIND_NOT_SET:
             break;
     }

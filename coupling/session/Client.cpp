@@ -30,14 +30,15 @@ struct Client::Impl
 {
     explicit Impl(ClientOptions given);
 
-    void connect(FluidProperties const& fluid);
+    void connect(FluidProperties const& properties);
     void send_mesh(MeshView const& mesh);
-    void begin_step(Step const& step, FluidFields const& fluid, std::vector<Monitor> const& monitors);
+    void begin_step(Step const& step, FluidFields const& fields, std::vector<Monitor> const& monitors);
     void end_step(Timings const& timings);
     void finish(std::string const& reason);
 
     session::Letter receive(std::string const& awaited);
     Time take_solid();
+    void send_whole_fluid();
     bool is_serial() const { return welcome.schedule == Schedule::serial; }
 
     /// Runs a call; a fault that leaves the session alive is remembered, in case the program ends because of it.
@@ -62,6 +63,7 @@ struct Client::Impl
     session::SharedFields shared;    ///< outlives the messages that lie in it
     message::Message solid_message;  ///< holds the bytes that the spans of solid show
     message::SolidState solid;
+    FluidState fluid;  ///< of begin_step() while it lasts, in case the server wants all of it
     Timings previous;  ///< of the last fluid step
     std::int64_t step = 0;
     session::ExchangeClock clock;
@@ -79,14 +81,14 @@ Client::Impl::Impl(ClientOptions given)
     terms.solid = message::choose_solid_fields(options.wants, Fault::user);
 }
 
-void Client::Impl::connect(FluidProperties const& fluid)
+void Client::Impl::connect(FluidProperties const& properties)
 {
     session.require(Event::connect);
     session.open(transport::Socket::connect(options.endpoint));
     session.advance(Event::connect);
     shared.want(options.shared_memory && session.is_ipc());
     message::Message hello =
-        message::pack(message::Hello{options.name, fluid, options.wants, options.schedule, options.timeout});
+        message::pack(message::Hello{options.name, properties, options.wants, options.schedule, options.timeout, options.encodings});
     shared.offer(hello);
     session.send(std::move(hello));
 
@@ -99,6 +101,7 @@ void Client::Impl::connect(FluidProperties const& fluid)
     welcome = session.read([&] { return message::unpack_welcome(letter.message); });
     session.set_peer_name(welcome.server);
     shared.agree(letter.message);
+    terms.encodings = both(welcome.encodings, options.encodings);
     terms.fluid = session.read([&] { return message::choose_fluid_fields(welcome.needs, Fault::protocol); });
 }
 
@@ -119,15 +122,15 @@ void Client::Impl::send_mesh(MeshView const& mesh)
     take_solid();
 }
 
-void Client::Impl::begin_step(Step const& next, FluidFields const& fluid, std::vector<Monitor> const& monitors)
+void Client::Impl::begin_step(Step const& next, FluidFields const& fields, std::vector<Monitor> const& monitors)
 {
     Time const entered = Clock::now();
     Event const call = is_serial() ? Event::begin_serial_step : Event::begin_overlapped_step;
     session.require(call);
 
     ExchangeTimes const& so_far = clock.times();
-    message::Message message =
-        message::lay_out(FluidState{next, fluid, monitors, previous, so_far.exchange, so_far.waiting}, terms);
+    fluid = {next, fields, monitors, previous, so_far.exchange, so_far.waiting, true};
+    message::Message message = message::lay_out(fluid, terms);
     shared.confirm(message);
     session.prepare(message);
     session.look_for_trouble("the fluid of its program");
@@ -172,15 +175,32 @@ session::Letter Client::Impl::receive(std::string const& awaited)
 /// Receives the solid of the current step; returns when it arrived.
 Time Client::Impl::take_solid()
 {
-    session::Letter letter = receive("SolidState of step " + std::to_string(step));
+    std::string const awaited = "SolidState of step " + std::to_string(step);
+    session::Letter letter = receive(awaited);
+    while (letter.message.kind() == message::Kind::kFluidWanted)
+    {
+        send_whole_fluid();
+        letter = receive(awaited);
+    }
     if (letter.message.envelope.step() != step)
         session.fail(Fault::protocol, message::describe(letter.message) + " from " + session.peer_name() +
                                           " is out of order (it should answer step " + std::to_string(step) +
                                           "); the two programs do not fit together, see docs/protocol.md");
     session.read([&] { shared.attach(letter.message); });
     solid = session.read([&] { return message::unpack_solid_state(letter.message, terms); });
+    terms.needed = solid.cells.needed;
     solid_message = std::move(letter.message);
     return letter.arrival;
+}
+
+void Client::Impl::send_whole_fluid()
+{
+    terms.needed.clear();
+    message::Message message = message::lay_out(fluid, terms);
+    shared.confirm(message);
+    session.prepare(message);
+    session.send(std::move(message));
+    terms.memory.message_sent();
 }
 
 Client::Client(ClientOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}

@@ -34,10 +34,11 @@ struct Server::Impl
 
     ClientInfo wait_for_client(ServerTerms const& offered);
     Mesh receive_mesh();
-    void accept_mesh(SolidFields const& initial, Timings const& timings);
+    void accept_mesh(SolidFields const& initial, Timings const& timings, StepCells const& cells);
     void reject_mesh(std::string const& why);
     std::optional<FluidState> receive_fluid();
-    void send_solid(SolidFields const& fields, Timings const& timings);
+    void complete(FluidState& fluid);
+    void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells);
     void request_stop(std::string const& reason);
 
     session::Letter receive(std::string const& awaited);
@@ -98,10 +99,12 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
     message::Hello const hello = session.read([&] { return message::unpack_hello(letter.message); });
     session.set_peer_name(hello.name);
     session.choose_session_number();
+    terms.encodings = both(options.encodings, hello.encodings);
     terms.solid = message::choose_solid_fields(hello.wants, Fault::protocol);
 
     message::Message welcome = message::pack(Welcome{
-        options.name, offered.title, hello.schedule.value_or(offered.schedule), offered.end_time, offered.needs});
+        options.name, offered.title, hello.schedule.value_or(offered.schedule), offered.end_time, offered.needs,
+                terms.encodings});
     shared.offer(welcome);
     shared.agree(letter.message);
     session.send(std::move(welcome));
@@ -122,10 +125,11 @@ Mesh Server::Impl::receive_mesh()
     return mesh;
 }
 
-void Server::Impl::accept_mesh(SolidFields const& initial, Timings const& timings)
+void Server::Impl::accept_mesh(SolidFields const& initial, Timings const& timings, StepCells const& cells)
 {
     session.require(Event::accept_mesh);
-    message::Message solid = message::pack(message::SolidState{initial, timings, 0, stop_reason()}, terms);
+    message::Message solid = message::pack(message::SolidState{initial, timings, 0, stop_reason(), cells}, terms);
+    terms.needed = cells.needed;
     session.look_for_trouble("the judgement of the mesh by its program");
     session.advance(Event::accept_mesh);
     message::Message accepted = message::pack_mesh_accepted(static_cast<std::int32_t>(terms.cell_count));
@@ -161,16 +165,37 @@ std::optional<FluidState> Server::Impl::receive_fluid()
     return fluid;
 }
 
-void Server::Impl::send_solid(SolidFields const& fields, Timings const& timings)
+void Server::Impl::complete(FluidState& fluid)
+{
+    if (fluid.is_complete) return;
+    session.require(Event::complete);
+    session.advance(Event::complete);
+    session.send(message::pack_fluid_wanted());
+    session::Letter letter = receive("the whole FluidState");
+    session.read([&] { shared.attach(letter.message); });
+    FluidState whole = session.read([&] { return message::unpack_fluid_state(letter.message, terms); });
+    bool const is_same = whole.step.number == fluid.step.number && whole.step.time == fluid.step.time &&
+                         whole.step.dt == fluid.step.dt;
+    if (!is_same || !whole.is_complete)
+        session.fail(Fault::protocol, message::describe(letter.message) + " from " + session.peer_name() +
+                                          " is not the whole fluid of step " + std::to_string(fluid.step.number) +
+                                          " that was asked for; see docs/protocol.md");
+    fluid.fields = whole.fields;
+    fluid.is_complete = true;
+    fluid_message = std::move(letter.message);
+}
+
+void Server::Impl::send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells)
 {
     double const busy = busy_before + seconds_between(handed_out, Clock::now());
     session.require(Event::send_solid);
-    message::Message solid = message::lay_out(message::SolidState{fields, timings, busy, stop_reason()}, terms);
+    message::Message solid = message::lay_out(message::SolidState{fields, timings, busy, stop_reason(), cells}, terms);
     session.prepare(solid);
     session.look_for_trouble("the solid of its program");
     session.advance(Event::send_solid);
     session.send(std::move(solid));
     terms.memory.message_sent();
+    terms.needed = cells.needed;
 }
 
 void Server::Impl::request_stop(std::string const& reason)
@@ -225,9 +250,9 @@ Mesh Server::receive_mesh()
     return impl_->guard([&] { return impl_->receive_mesh(); });
 }
 
-void Server::accept_mesh(SolidFields const& initial, Timings const& timings)
+void Server::accept_mesh(SolidFields const& initial, Timings const& timings, StepCells const& cells)
 {
-    impl_->guard([&] { impl_->accept_mesh(initial, timings); });
+    impl_->guard([&] { impl_->accept_mesh(initial, timings, cells); });
 }
 
 void Server::reject_mesh(std::string const& why)
@@ -245,9 +270,14 @@ std::string const& Server::goodbye_reason() const
     return impl_->goodbye_reason;
 }
 
-void Server::send_solid(SolidFields const& fields, Timings const& timings)
+void Server::complete(FluidState& fluid)
 {
-    impl_->guard([&] { impl_->send_solid(fields, timings); });
+    impl_->guard([&] { impl_->complete(fluid); });
+}
+
+void Server::send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells)
+{
+    impl_->guard([&] { impl_->send_solid(fields, timings, cells); });
 }
 
 void Server::abort(std::string const& reason) noexcept

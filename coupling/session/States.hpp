@@ -25,6 +25,7 @@ enum class State
     solving,      ///< client, serial: for its program to end the fluid step
     overlapping,  ///< client, overlapped: for its program to end the fluid step, and the solid of the step
     computing,    ///< server: for its program to answer the fluid
+    completing,   ///< server: for the cells of the fluid that were left out
     finished,     ///< both: Goodbye was said
     failed        ///< both: a fault ended the session
 };
@@ -46,6 +47,7 @@ enum class Event
     accept_mesh,
     reject_mesh,
     receive_fluid,
+    complete,
     send_solid,
     // messages
     hello,
@@ -54,6 +56,7 @@ enum class Event
     mesh_accepted,
     fluid_state,
     solid_state,
+    fluid_wanted,
     goodbye
 };
 

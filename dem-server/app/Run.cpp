@@ -131,21 +131,22 @@ public:
             settle();
         engine_.set_inlets(inlets_);
         engine_.map_initial_state();
-        server_.accept_mesh(engine_.fields());
+        engine_.monitor(log_.monitored_cells());
+        server_.accept_mesh(engine_.fields(), {}, cells_to_send(at_.time));
         if (!server_.shared_memory_note().empty())
             fmt::print(stderr, "gimdem-server: note: {}\n", server_.shared_memory_note());
     }
 
     void couple()
     {
-        while (auto const fluid = server_.receive_fluid())
+        while (auto fluid = server_.receive_fluid())
         {
             if (at_.step == start_.step) check_start(fluid->step);
             double const output_time = log_.sample(*fluid, engine_);
-            StepReport report = engine_.advance(fluid->step, fluid->fields);
+            StepReport report = engine_.advance(fluid->step, fluid->fields, whole(*fluid));
             report.timings.output = output_time;
             if (interrupted()) server_.request_stop("interrupted by the user");
-            server_.send_solid(engine_.fields(), report.timings);
+            server_.send_solid(engine_.fields(), report.timings, cells_to_send(fluid->step.time + fluid->step.dt));
             log_.record(*fluid, report, engine_);
             double const before = at_.time;
             at_ = {at_.step + 1, fluid->step.time + fluid->step.dt};
@@ -161,6 +162,25 @@ public:
     }
 
 private:
+    /// In serial runs the client, which waits, can be asked for the cells that it left out.
+    std::function<coupling::FluidFields()> whole(coupling::FluidState& fluid)
+    {
+        if (fluid.is_complete) return {};
+        return [this, &fluid]
+        {
+            server_.complete(fluid);
+            return fluid.fields;
+        };
+    }
+
+    /// For the solid of a step that ends at `time` [s], and the fluid of the next one.
+    coupling::StepCells cells_to_send(double time)
+    {
+        coupling::StepCells cells = engine_.step_cells(schedule_ == coupling::Schedule::serial);
+        if (log_.expects_frame(time)) cells.needed.clear();
+        return cells;
+    }
+
     void settle()
     {
         check_particles_against_walls(system_.particles(), walls_);

@@ -39,6 +39,12 @@ coupling::Patch const* named_patch(PolyMesh const& mesh, std::string const& name
         fmt::format("[output] {} = \"{}\" is no patch of the client's mesh; name one of its patches", key, name));
 }
 
+/// Is the count-th of something due that is wanted every `interval` [s]?
+bool is_due(double since_start, std::int64_t count, double interval)
+{
+    return interval > 0 && since_start >= (static_cast<double>(count) - 1e-6) * interval;
+}
+
 }  // namespace
 
 RunLog::RunLog(Case const& settings, std::filesystem::path folder, PolyMesh const& mesh, DemSystem const& system,
@@ -68,11 +74,34 @@ double RunLog::sample(coupling::FluidState const& fluid, CoupledEngine const& en
         last_momentum_ = momentum(system_.particles());
         open_series(fluid);
     }
-    auto const due = [&](std::int64_t count, double interval)
-    { return interval > 0 && fluid.step.time - first_time_ >= (static_cast<double>(count) - 1e-6) * interval; };
-    if (due(rows_, settings_.output.sample_interval)) write_row(fluid, engine);
-    if (due(frame_count_, settings_.output.particle_interval)) write_frame(fluid, engine);
+    if (is_due(fluid.step.time - first_time_, rows_, settings_.output.sample_interval)) write_row(fluid, engine);
+    if (frame_is_due_.value_or(is_frame_due(fluid.step.time))) write_frame(fluid, engine);
+    frame_is_due_.reset();
     return seconds_since(start);
+}
+
+bool RunLog::is_frame_due(double time) const
+{
+    double const since = series_ ? time - first_time_ : 0;
+    return is_due(since, frame_count_, settings_.output.particle_interval);
+}
+
+bool RunLog::expects_frame(double time)
+{
+    frame_is_due_ = is_frame_due(time);
+    return *frame_is_due_;
+}
+
+std::vector<std::int32_t> RunLog::monitored_cells() const
+{
+    std::vector<std::int32_t> cells;
+    for (PlaneSection const& plane : planes_)
+        plane.list_cells(cells);
+    for (coupling::Patch const* const patch : {inlet_, outlet_})
+        if (patch != nullptr)
+            cells.insert(cells.end(), mesh_.topology().owner.begin() + patch->start_face,
+                         mesh_.topology().owner.begin() + patch->start_face + patch->face_count);
+    return cells;
 }
 
 void RunLog::record(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine)
@@ -81,6 +110,7 @@ void RunLog::record(coupling::FluidState const& fluid, StepReport const& report,
     ++steps_;
     last_time_ = fluid.step.time + dt;
     dem_steps_ += report.dem_steps;
+    whole_fluids_ += report.fluid_was_wanted;
     cell_clips_ += report.cell_clips;
     particle_clips_ = engine.particle_clips();
     momentum_imbalance_ = std::max(momentum_imbalance_, report.momentum_imbalance);

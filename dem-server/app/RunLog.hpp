@@ -30,6 +30,11 @@ public:
     /// Before a step: particles and fluid are both at step.time. Writes what is due. Returns the seconds it took.
     double sample(coupling::FluidState const& fluid, CoupledEngine const& engine);
 
+    /// Will sample() write fields of all cells in the step that begins then? It keeps to this answer [s].
+    bool expects_frame(double time);
+    /// The cells whose pressure and gradients it reads in every step.
+    std::vector<std::int32_t> monitored_cells() const;
+
     /// After a step.
     void record(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine);
 
@@ -53,6 +58,7 @@ private:
     void open_series(coupling::FluidState const& fluid);
     void write_row(coupling::FluidState const& fluid, CoupledEngine const& engine);
     void write_frame(coupling::FluidState const& fluid, CoupledEngine const& engine);
+    bool is_frame_due(double time) const;
     double pressure_drop(coupling::FluidFields const& fluid) const;
     double mean_diameter() const;
     double gas_weight() const;  ///< of the fluid in the whole mesh [N]
@@ -72,6 +78,8 @@ private:
     output::ResultSeries frames_;
     std::optional<output::TimeSeries> series_;
     std::int64_t rows_ = 0, frame_count_ = 0;
+    std::optional<bool> frame_is_due_;  ///< in the next step, as expects_frame() told
+    std::int64_t whole_fluids_ = 0;     ///< steps in which cells of the fluid had to be asked for
     Interval interval_;
     Vec3 last_momentum_ = Vec3::Zero();
 

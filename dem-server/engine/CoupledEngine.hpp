@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/Case.hpp"
 #include "engine/DemSystem.hpp"
+#include "engine/FluidCoverage.hpp"
 #include "engine/device/DeviceDem.hpp"
 #include "gimdem/coupling/Types.hpp"
 #include "mapping/Mapper.hpp"
@@ -19,6 +21,7 @@ namespace gimdem
 struct StepReport
 {
     std::int64_t dem_steps = 0;
+    bool fluid_was_wanted = false;  ///< cells were read that had not been asked for, and the whole fluid was fetched
     std::int64_t removed = 0;       ///< particles that left the mesh in this step; mapped a last time, then removed
     double momentum_imbalance = 0;  ///< |sum S V + sum F_d| / sum |F_d|, theory.md (C.3) [1]
     double volume_imbalance = 0;    ///< |sum solid V - sum V_p| / sum V_p [1]
@@ -42,10 +45,18 @@ public:
 
     /// Moves the particles t -> t + dt in the fluid of time t and maps them, theory.md (C.1)-(C.7). Takes the least
     /// whole number of equal DEM steps that are no longer than [dem] time_step.
-    StepReport advance(coupling::Step const& step, coupling::FluidFields const& fluid);
+    /// whole_fluid: where fluid has only the cells of step_cells(), gives it with all of them.
+    StepReport advance(coupling::Step const& step, coupling::FluidFields fluid,
+                       std::function<coupling::FluidFields()> const& whole_fluid = {});
 
     /// The solid of the last step; spans live until the next one.
     coupling::SolidFields fields() const;
+
+    /// Which cells of the solid are to travel, and of the fluid of the next step. can_ask: advance() will be given a
+    /// whole_fluid that works.
+    coupling::StepCells step_cells(bool can_ask) const;
+    /// Cells whose pressure and gradients somebody else reads, too.
+    void monitor(std::span<std::int32_t const> cells) { coverage_.monitor(cells); }
 
     /// Particles that come during the run; `inlets` outlives the engine.
     void set_inlets(std::vector<Inlet>& inlets) { inlets_ = &inlets; }
@@ -61,9 +72,11 @@ private:
     void locate();
     void sum_into_cells();
     ImpulseSums impulse_sums() const;
-    void map_particles(double dt, coupling::FluidFields const& fluid, StepReport& report);
+    void map_particles(double dt, std::function<coupling::FluidFields()> const& fluid, StepReport& report);
     void compute_void_fraction(StepReport& report);
     void compute_momentum_exchange(double dt, coupling::FluidFields const& fluid);
+    void mark_cells();
+    void look_ahead();
     void check_balance(double dt, StepReport& report) const;
     void insert_due(double time);
     std::int64_t remove_leavers();
@@ -79,6 +92,8 @@ private:
     std::vector<Inlet>* inlets_ = nullptr;
     CellSums sums_;
     exec::Buffer<double> void_fraction_, momentum_source_, drag_coefficient_, drag_momentum_;
+    exec::Buffer<std::uint8_t> has_solid_, has_drag_;  ///< flags of the cells
+    FluidCoverage coverage_;
 };
 
 }  // namespace gimdem

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "gimdem/coupling/CellRuns.hpp"
 #include "gimdem/coupling/Error.hpp"
 #include "gimdem/coupling/Types.hpp"
 
@@ -38,6 +39,7 @@ struct ClientOptions
     std::optional<Schedule> schedule;  ///< ask for one; left empty, the server's case file decides
     std::vector<std::string> wants;  ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
     bool shared_memory = true;       ///< over ipc, let large fields travel through shared memory if the server can
+    Encodings encodings{true, true, true};  ///< those that the server may choose
 };
 
 /// The server's answer to Hello.
@@ -48,6 +50,7 @@ struct Welcome
     Schedule schedule = Schedule::serial;
     double end_time = 0;             ///< the run ends here [s]
     std::vector<std::string> needs;  ///< fluid fields that this scene needs, names of namespace field
+    Encodings encodings;             ///< in force
     bool needs_field(std::string const& name) const;
 };
 
@@ -74,7 +77,8 @@ public:
     void send_mesh(MeshView const& mesh);
 
     /// @pre send_mesh() or end_step() has been called. Returns the solid that the fluid step must use; its spans live
-    /// until the next begin_step or end_step. Sizes of the fields are checked; a NaN or infinity in one is Fault::user.
+    /// until the next begin_step or end_step. Sizes of the fields are checked; a NaN or infinity in what is sent is Fault::user. Where the
+    /// server needs only some cells, only these are sent.
     SolidFields const& begin_step(Step const& step, FluidFields const& fluid,
                                   std::vector<Monitor> const& monitors = {});
 

@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "gimdem/coupling/CellRuns.hpp"
 #include "gimdem/coupling/Error.hpp"
 #include "gimdem/coupling/Types.hpp"
 
@@ -34,6 +35,7 @@ struct ServerOptions
     double connect_time = 120;  ///< how long to wait for a client [s]
     double step_time = 3600;    ///< longest wait for the next message of a live client [s]
     bool shared_memory = true;  ///< over ipc, let large fields travel through shared memory if the client can
+    Encodings encodings{true, false, false};  ///< in force if the client can do them
 };
 
 /// What the case file fixes and the client is told.
@@ -64,6 +66,8 @@ struct FluidState
     Timings previous;     ///< how long the client's previous step took
     double exchange = 0;  ///< the client's sum of exchange time so far [s]
     double waiting = 0;   ///< the client's sum of waiting so far [s]
+    /// False: cells that the last StepCells left out hold 0.
+    bool is_complete = true;
 };
 
 class Server
@@ -86,7 +90,7 @@ public:
     Mesh receive_mesh();
 
     /// @pre receive_mesh. Sends MeshAccepted and the solid at t = 0. Only the fields the client wants are sent.
-    void accept_mesh(SolidFields const& initial, Timings const& timings = {});
+    void accept_mesh(SolidFields const& initial, Timings const& timings = {}, StepCells const& cells = {});
 
     /// Refuse the mesh with a reason; the session is over.
     void reject_mesh(std::string const& why);
@@ -95,8 +99,12 @@ public:
     std::optional<FluidState> receive_fluid();
     std::string const& goodbye_reason() const;
 
+    /// @pre receive_fluid, and the client keeps to the serial schedule. Asks for the fields of all cells of that fluid;
+    /// afterwards it is complete. Takes a round trip.
+    void complete(FluidState& fluid);
+
     /// @pre receive_fluid. Answers it.
-    void send_solid(SolidFields const& fields, Timings const& timings);
+    void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells = {});
 
     /// Tell the client why we stop; never throws. The destructor of an unfinished session does it too.
     void abort(std::string const& reason) noexcept;
