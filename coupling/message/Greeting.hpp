@@ -21,7 +21,7 @@ struct Hello
     std::vector<std::string> wants;
     std::optional<Schedule> schedule;
     double timeout = 0;  ///< of the client [s]
-    Encodings encodings;  ///< that the client can use
+    Encodings encodings = {};  ///< that the client can use
 };
 
 Message pack(Hello const& hello);

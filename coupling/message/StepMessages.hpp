@@ -21,7 +21,7 @@ struct SolidState
     Timings timings;
     double busy_time = 0;  ///< from the arrival of the fluid to the answer, without unpacking [s]
     std::optional<std::string> stop_request;
-    StepCells cells;  ///< as received, cells.needed only
+    StepCells cells = {};  ///< as received, cells.needed only
 };
 
 /// What both sides agreed on: which fields travel, on how many cells.

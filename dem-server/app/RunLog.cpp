@@ -302,6 +302,8 @@ void RunLog::finish(double bytes)
         summary_.add("share_waiting",
                      share(schedule_ == coupling::Schedule::serial ? std::max(0.0, wall - work) : client_waiting_),
                      "1");
+        summary_.add("exchange_per_step", 1e6 * exchange / static_cast<double>(std::max<std::int64_t>(steps_, 1)), "us");
+        summary_.add("whole_fluids_asked_for", static_cast<double>(whole_fluids_), "1");
         summary_.add("bytes_per_step", bytes / static_cast<double>(std::max<std::int64_t>(steps_, 1)), "B");
     }
     summary_.print(std::cout);

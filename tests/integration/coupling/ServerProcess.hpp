@@ -94,7 +94,12 @@ class ServerProcess
 public:
     /// given: an endpoint that it may choose the port of.
     explicit ServerProcess(std::string const& given, SmallCase const& settings = {})
-        : process_(command(folder_, given, settings), folder_ / "output.txt")
+        : ServerProcess(given, settings.text())
+    {
+    }
+    /// The same with a case file of this text.
+    ServerProcess(std::string const& given, std::string const& text)
+        : process_(command(folder_, given, text), folder_ / "output.txt")
     {
     }
 
@@ -134,9 +139,9 @@ public:
 
 private:
     static std::vector<std::string> command(TemporaryFolder const& folder, std::string const& endpoint,
-                                            SmallCase const& settings)
+                                            std::string const& text)
     {
-        std::ofstream(folder / "case.toml") << settings.text();
+        std::ofstream(folder / "case.toml") << text;
         return {GIMDEM_SERVER, "--case", folder / "case.toml", "--run", folder / "run", "--endpoint", endpoint};
     }
 

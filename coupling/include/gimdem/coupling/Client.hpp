@@ -50,7 +50,7 @@ struct Welcome
     Schedule schedule = Schedule::serial;
     double end_time = 0;             ///< the run ends here [s]
     std::vector<std::string> needs;  ///< fluid fields that this scene needs, names of namespace field
-    Encodings encodings;             ///< in force
+    Encodings encodings = {};        ///< in force
     bool needs_field(std::string const& name) const;
 };
 

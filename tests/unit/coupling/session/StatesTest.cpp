@@ -52,7 +52,8 @@ std::vector<Path> const server_paths{
     {State::welcomed, {Event::hello}},
     {State::meshing, {Event::hello, Event::mesh}},
     {State::ready, {Event::hello, Event::mesh, Event::accept_mesh}},
-    {State::computing, {Event::hello, Event::mesh, Event::accept_mesh, Event::fluid_state}}};
+    {State::computing, {Event::hello, Event::mesh, Event::accept_mesh, Event::fluid_state}},
+    {State::completing, {Event::hello, Event::mesh, Event::accept_mesh, Event::fluid_state, Event::complete}}};
 
 /// The rules once more, from docs/protocol.md: the only messages that a state takes, and where they lead.
 using Allowed = std::map<std::pair<State, std::string>, State>;
@@ -61,13 +62,22 @@ Allowed const client_allows{{{State::greeting, "Welcome"}, State::welcomed},
                             {{State::meshing, "MeshAccepted"}, State::accepted},
                             {{State::accepted, "SolidState"}, State::ready},
                             {{State::waiting, "SolidState"}, State::solving},
+                            {{State::waiting, "FluidWanted"}, State::waiting},
                             {{State::overlapping, "SolidState"}, State::ready}};
 
 Allowed const server_allows{
     {{State::listening, "Hello"}, State::welcomed},   {{State::welcomed, "Mesh"}, State::meshing},
+    {{State::completing, "FluidState"}, State::computing},
     {{State::ready, "FluidState"}, State::computing}, {{State::welcomed, "Goodbye"}, State::finished},
     {{State::meshing, "Goodbye"}, State::finished},   {{State::ready, "Goodbye"}, State::finished},
     {{State::computing, "Goodbye"}, State::finished}};
+
+RawMessage raw_fluid_wanted()
+{
+    RawMessage message;
+    message.envelope.mutable_fluid_wanted();
+    return message;
+}
 
 std::map<std::string, RawMessage> every_message()
 {
@@ -78,6 +88,7 @@ std::map<std::string, RawMessage> every_message()
             {"MeshAccepted", test::raw_mesh_accepted(mesh.cell_count)},
             {"FluidState", test::raw_fluid(1, 0, 1e-3, mesh.cell_count)},
             {"SolidState", test::raw_solid(1, mesh.cell_count)},
+            {"FluidWanted", raw_fluid_wanted()},
             {"Goodbye", test::raw_goodbye()},
             {"Error", test::raw_error("raw trouble")}};
 }
