@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import bench_dem
+import bench_exchange
 import bench_gim
 import bench_mapping
 import bench_noise
@@ -38,7 +39,7 @@ def parser() -> argparse.ArgumentParser:
     add("test", run_tests, f"build everything and run the tests, except {SKIPPED_LABELS}; further options go to ctest")
     bench = add("bench", run_benchmarks, "run the benchmarks")
     bench.add_argument("name", nargs="?",
-                       help="dem, mapping, noise, gim-figures (the figures of the method's paper), or a part of a program's name")
+                       help="dem, mapping, noise, exchange, gim-figures (the figures of the method's paper), or a part of a program's name")
     bench_dem.add_options(bench)
     bench_mapping.add_options(bench)
     bench_noise.add_options(bench)
@@ -75,6 +76,8 @@ def run_benchmarks(options: argparse.Namespace) -> int:
         return bench_mapping.run(options, parts_of(options, bench_mapping.PARTS))
     if options.name == "noise":
         return bench_noise.run(options)
+    if options.name == "exchange":
+        return bench_exchange.run(options)
     if options.name == "gim-figures":
         return bench_gim.run(options)
     found = {path.name: path for path in sorted((build_dir() / "bin").glob("*benchmark*"))}

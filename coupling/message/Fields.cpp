@@ -235,12 +235,15 @@ void look_through(Message& message, std::size_t count)
 }
 
 template <class Fields>
-std::size_t shared_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count)
+std::size_t shared_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count, bool any_size)
 {
-    std::size_t sum = 0;
+    std::size_t large = 0, all = 0;
     for (auto const& entry : choice)
-        sum += transport::shared_bytes(cell_count * entry.components * sizeof(double));
-    return sum;
+    {
+        large += transport::shared_bytes(cell_count * entry.components * sizeof(double));
+        all += transport::aligned_bytes(cell_count * entry.components * sizeof(double));
+    }
+    return any_size && large > 0 ? all : large;
 }
 
 template <class Fields>
@@ -269,8 +272,8 @@ template void lay_out_fields(Message&, FieldChoice<FluidFields> const&, FluidFie
                              transport::SendMemory const&, FieldLayout const&);
 template void lay_out_fields(Message&, FieldChoice<SolidFields> const&, SolidFields const&, std::size_t,
                              transport::SendMemory const&, FieldLayout const&);
-template std::size_t shared_bytes(FieldChoice<FluidFields> const&, std::size_t);
-template std::size_t shared_bytes(FieldChoice<SolidFields> const&, std::size_t);
+template std::size_t shared_bytes(FieldChoice<FluidFields> const&, std::size_t, bool);
+template std::size_t shared_bytes(FieldChoice<SolidFields> const&, std::size_t, bool);
 template FluidFields view_fields(Message const&, FieldChoice<FluidFields> const&, std::size_t, FieldStore const&);
 template SolidFields view_fields(Message const&, FieldChoice<SolidFields> const&, std::size_t, FieldStore const&);
 

@@ -67,9 +67,10 @@ void fill(Message& message, std::function<void(std::size_t)> const& filled = {})
 /// there are none.
 void look_through(Message& message, std::size_t count);
 
-/// Bytes of shared memory that one message with the chosen fields takes.
+/// Bytes of shared memory that one message with the chosen fields takes. any_size: small ones lie there, too, beside
+/// large ones.
 template <class Fields>
-std::size_t shared_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count);
+std::size_t shared_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count, bool any_size = false);
 
 /// The chosen fields, in place, or in the store if they travel in another form than they are used; the others are
 /// empty. Fault::protocol if the message has others than the chosen ones, or the wrong sizes, or a NaN or infinity.

@@ -112,7 +112,7 @@ void Client::Impl::send_mesh(MeshView const& mesh)
     session.look_for_trouble("the mesh of its program");
     session.advance(Event::send_mesh);
     terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
-    shared.announce(message, message::shared_bytes(terms.fluid, terms.cell_count));
+    shared.announce(message, message::shared_bytes(terms.fluid, terms.cell_count, terms.encodings.sparse));
     session.send(std::move(message));
 
     session::Letter const letter = receive("MeshAccepted");

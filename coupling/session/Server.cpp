@@ -134,7 +134,7 @@ void Server::Impl::accept_mesh(SolidFields const& initial, Timings const& timing
     session.advance(Event::accept_mesh);
     message::Message accepted = message::pack_mesh_accepted(static_cast<std::int32_t>(terms.cell_count));
     shared.confirm(accepted);
-    shared.announce(accepted, message::shared_bytes(terms.solid, terms.cell_count));
+    shared.announce(accepted, message::shared_bytes(terms.solid, terms.cell_count, terms.encodings.sparse));
     session.send(std::move(accepted));
     session.send(std::move(solid));
 }

@@ -29,15 +29,19 @@ struct SendMemory::Ring
             (bytes < least_shared_bytes && !any_size) || bytes > slot_bytes() - used)
             return nullptr;
         unsigned char* const begin = segment->memory().data() + slot * slot_bytes() + used;
-        used = std::min(slot_bytes(), used + (bytes + shared_alignment - 1) / shared_alignment * shared_alignment);
+        used = std::min(slot_bytes(), used + aligned_bytes(bytes));
         return begin;
     }
 };
 
+std::size_t aligned_bytes(std::size_t bytes)
+{
+    return (bytes + shared_alignment - 1) / shared_alignment * shared_alignment;
+}
+
 std::size_t shared_bytes(std::size_t array_bytes)
 {
-    if (array_bytes < least_shared_bytes) return 0;
-    return (array_bytes + shared_alignment - 1) / shared_alignment * shared_alignment;
+    return array_bytes < least_shared_bytes ? 0 : aligned_bytes(array_bytes);
 }
 
 std::size_t segment_bytes(std::size_t slot_bytes)

@@ -20,6 +20,8 @@ inline constexpr std::size_t slot_count = 3;
 /// Arrays begin at multiples of this, a cache line [byte].
 inline constexpr std::size_t shared_alignment = 64;
 
+/// The next multiple of the alignment.
+std::size_t aligned_bytes(std::size_t bytes);
 /// Bytes of a slot that such an array takes; none if it goes as a frame.
 std::size_t shared_bytes(std::size_t array_bytes);
 /// Size of a segment whose slots hold so many bytes each: the slots, then the mailbox.

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <utility>
 
+#include "app/ExchangeLog.hpp"
 #include "app/RunLog.hpp"
 #include "core/Error.hpp"
 #include "engine/CellSizeCheck.hpp"
@@ -112,6 +113,7 @@ public:
           system_(settings, execution_, materials, walls_, std::move(particles)),
           folder_(folder),
           log_(settings, folder, mesh_, system_, client, schedule_),
+          exchange_log_(folder, settings.output.sample_interval),
           engine_(settings, execution_, mesh_, walls_, client.fluid, system_)
     {
     }
@@ -142,6 +144,7 @@ public:
         while (auto fluid = server_.receive_fluid())
         {
             if (at_.step == start_.step) check_start(fluid->step);
+            exchange_log_.record(*fluid, server_.bytes());
             double const output_time = log_.sample(*fluid, engine_);
             StepReport report = engine_.advance(fluid->step, fluid->fields, whole(*fluid));
             report.timings.output = output_time;
@@ -225,6 +228,7 @@ private:
     DemSystem system_;
     std::filesystem::path folder_;
     RunLog log_;
+    ExchangeLog exchange_log_;
     CoupledEngine engine_;
     RunPoint start_, at_;  ///< in coupling steps
 };

@@ -127,8 +127,8 @@ Outcome run(std::string const& transport, TallCase const& settings, bool sparse)
     for (auto const& entry : std::filesystem::recursive_directory_iterator(server.result("")))
     {
         std::string const name = std::filesystem::relative(entry.path(), server.result(""));
-        // The summary tells wall times and bytes.
-        if (entry.is_regular_file() && name != "summary.json") outcome.files[name] = contents(entry.path());
+        // These tell wall times and bytes.
+        if (entry.is_regular_file() && name != "summary.json" && name != "exchange.csv") outcome.files[name] = contents(entry.path());
     }
     return outcome;
 }

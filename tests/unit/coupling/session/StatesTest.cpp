@@ -270,7 +270,8 @@ std::map<State, std::vector<Event>> const server_calls{{State::listening, {Event
                                                        {State::welcomed, {Event::receive_mesh}},
                                                        {State::meshing, {Event::accept_mesh, Event::reject_mesh}},
                                                        {State::ready, {Event::receive_fluid}},
-                                                       {State::computing, {Event::send_solid}},
+                                                       {State::computing, {Event::complete, Event::send_solid}},
+                                                       {State::completing, {}},
                                                        {State::finished, {Event::receive_fluid}},
                                                        {State::failed, {}}};
 
