@@ -247,7 +247,7 @@ void CoupledEngine::mark_cells()
 // A device keeps the places of its particles to itself: there the whole fluid is asked for.
 void CoupledEngine::look_ahead()
 {
-    if (system_.device() == nullptr) coverage_.look_ahead(mapper_.occupied().host(), has_drag_.host());
+    if (system_.device() == nullptr) coverage_.look_ahead(mapper_.cell_of().host(), has_drag_.host());
 }
 
 coupling::StepCells CoupledEngine::step_cells(bool can_ask) const

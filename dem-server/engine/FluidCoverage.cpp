@@ -31,10 +31,10 @@ void FluidCoverage::monitor(std::span<std::int32_t const> cells)
         monitored_[static_cast<std::size_t>(c)] = 1;
 }
 
-void FluidCoverage::look_ahead(std::span<std::int32_t const> occupied, std::span<std::uint8_t const> has_drag)
+void FluidCoverage::look_ahead(std::span<std::int32_t const> cell_of, std::span<std::uint8_t const> has_drag)
 {
     std::fill(loads_.begin(), loads_.end(), std::uint8_t{0});
-    for (std::int32_t const c : occupied)
+    for (std::int32_t const c : cell_of)
         loads_[static_cast<std::size_t>(c)] = 1;
 
     velocity_.assign(has_drag.begin(), has_drag.end());

@@ -24,8 +24,8 @@ public:
     /// Cells whose pressure and gradients are read whatever the particles do, for monitors.
     void monitor(std::span<std::int32_t const> cells);
 
-    /// Chooses the cells of the next step: `occupied` by particles, and where has_drag, shape=(n_cells,), is not 0.
-    void look_ahead(std::span<std::int32_t const> occupied, std::span<std::uint8_t const> has_drag);
+    /// Chooses the cells of the next step, from the cell of each particle and where has_drag, shape=(n_cells,), is not 0.
+    void look_ahead(std::span<std::int32_t const> cell_of, std::span<std::uint8_t const> has_drag);
 
     /// Were all these cells chosen for what particles read?
     bool has_loads(std::span<std::int32_t const> cells) const;

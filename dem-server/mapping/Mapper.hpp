@@ -65,8 +65,6 @@ public:
     [[noreturn]] static void refuse_outside(ParticleState const& particles, std::int64_t particle);
 
     exec::Buffer<std::int32_t> const& cell_of() const { return cell_of_; }
-    /// The cells that had particles when compute_weights() was called.
-    exec::Buffer<std::int32_t> const& occupied() const { return layout_.occupied; }
     /// A row for each particle, cell after cell and in rising order within a cell: weights on layers() of its cell.
     exec::Buffer<double> const& weights() const { return weights_; }
     CellRows const& layers() const { return method_->candidates(); }

@@ -15,7 +15,7 @@ namespace gimdem::coupling
 
 /// Version of the protocol, docs/protocol.md: peers must agree on the major number.
 inline constexpr int protocol_major = 1;
-inline constexpr int protocol_minor = 1;
+inline constexpr int protocol_minor = 0;
 
 /// Which time level each solver sees within one coupling step, docs/theory.md section C.
 enum class Schedule
