@@ -10,7 +10,6 @@ from pathlib import Path
 from console import UserError, server_binary, shown
 from meshes import mesh_source
 
-CLIENTS = ("openfoam", "reference")
 DICTIONARIES = {
     "0/U": "initial and boundary velocity of the fluid",
     "0/p": "initial and boundary pressure of the fluid",
@@ -35,6 +34,7 @@ class CaseDescription:
     until: float  # [s]
     endpoint: str
     timeout: float  # a silent peer is dead after this [s]
+    keys: str = ""  # folder, docs/security.md
     device: str = "auto"  # where the particles are computed
     precision: str | None = None  # of the contact laws, None: as the case file says
 
@@ -72,7 +72,7 @@ def describe(case_file: Path) -> CaseDescription:
     return CaseDescription(
         file=case_file, title=told["title"], client=told["client"], grid=told.get("grid", ""),
         grids=told.get("grids", []), schedule=told["schedule"], until=told["until"], endpoint=told["endpoint"],
-        timeout=told["timeout"],
+        timeout=told["timeout"], keys=told.get("keys", ""),
     )
 
 

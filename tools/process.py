@@ -37,6 +37,17 @@ def spawn(
     )
 
 
+def kill_session(leader: int) -> None:
+    """Kill a child that spawn() started and, at once, whatever it has started itself: mpirun, killed alone, would leave
+    its ranks. The child must not have been waited for, so that its number still means it."""
+    for entry in Path("/proc").iterdir():
+        try:
+            if entry.name.isdigit() and os.getsid(int(entry.name)) == leader:
+                os.kill(int(entry.name), signal.SIGKILL)
+        except OSError:  # it has ended meanwhile, or belongs to somebody else
+            continue
+
+
 def run_logged(command: Sequence[str], log: Path, *, cwd: Path | None = None,
                env: Mapping[str, str] | None = None) -> int:
     """Run a helper to its end with all output in `log`; returns its exit code."""

@@ -7,16 +7,16 @@ import os
 import signal
 import subprocess
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import openfoam
+import parallel
 from build import build, is_built_with_cuda
-from case_folder import CLIENTS, CaseDescription, check_grid, check_openfoam_dictionaries, describe, find_case_file
-from console import UserError, openfoam_client_binary, say, server_binary, shown
+from case_folder import CaseDescription, check_grid, describe, find_case_file
+from clients import CLIENTS, Program, find_client
+from console import UserError, say, server_binary, shown
 from endpoint import Endpoint
-from meshes import copy_into, is_script, mesh_source
 from process import how_it_ended, spawn
 from record import RunRecord
 from report import print_results
@@ -27,17 +27,23 @@ from supervise import Child, Outcome, Supervisor
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("case", metavar="CASE_DIR", help="a folder with a case.toml")
-    parser.add_argument("--client", choices=CLIENTS, help="who solves the fluid (default: as case.toml says)")
-    parser.add_argument("--schedule", choices=("serial", "overlapped"), help="who waits for whom (case.toml)")
+    parser.add_argument("--client", metavar="NAME", help="who solves the fluid (default: as case.toml says): "
+                        f"{', '.join(CLIENTS)}, or the path of a program of yours (docs/write-a-client.md)")
+    parser.add_argument("--schedule", choices=("serial", "overlapped", "iterated"),
+                        help="who waits for whom (case.toml)")
     parser.add_argument("--device", choices=("auto", "cuda", "cpu"), default="auto",
                         help="where the particles are computed")
     parser.add_argument("--precision", choices=("double", "mixed"), help="of the contact laws (case.toml)")
     parser.add_argument("--grid", metavar="X", help="mesh variant of the case (case.toml)")
     parser.add_argument("--until", metavar="T", type=positive, help="simulated time [s] (case.toml)")
     parser.add_argument("--threads", metavar="N", type=count, help="threads of the server; 0: all cores (case.toml)")
-    parser.add_argument("--ranks", metavar="N", type=count, default=1, help="processes of the client (1)")
+    parser.add_argument("--ranks", metavar="N", type=count, default=1,
+                        help="processes that solve the fluid, with MPI (1)")
     parser.add_argument("--restart", metavar="FILE",
                         help="go on from a checkpoint, or from the latest of the case: --restart latest")
+    parser.add_argument("--trace", action="store_true", help="write trace.json, which Perfetto opens")
+    parser.add_argument("--trace-steps", metavar="N", type=count, default=1000, help="coupling steps in it (1000)")
+    parser.add_argument("--trace-every", metavar="K", type=positive_count, default=1, help="of every K-th step (1)")
     parser.add_argument("--output", metavar="DIR", help="run folder; must be new or empty (CASE_DIR/runs/NNNN)")
 
 
@@ -54,37 +60,48 @@ def count(text: str) -> int:
     return int(text)
 
 
+def positive_count(text: str) -> int:
+    if int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not 1 or more")
+    return int(text)
+
+
 def run(options: argparse.Namespace) -> int:
     """The whole job; returns the exit code."""
-    refuse_what_is_to_come(options.client, options.device, options.ranks)
+    refuse_what_is_to_come(options.client, options.device)
     case_file = find_case_file(options.case)
     setup(quiet=True)
     build(("gimdem-server",))
     case = choose(describe(case_file), options)
-    if case.client != "none":
-        build(("gimdemFoam",))
-        check_openfoam_dictionaries(case)
+    client = None if case.client == "none" else find_client(case.client)
+    if client:
+        if client.targets:
+            build(client.targets)
+        client.check(case)
     endpoint = Endpoint(case.endpoint)
     try:
-        return run_in_folder(case, options, endpoint)
+        return run_in_folder(case, client, options, endpoint)
     finally:
         endpoint.close()
 
 
-def refuse_what_is_to_come(client: str | None, device: str, ranks: int) -> None:
+def refuse_what_is_to_come(client: str | None, device: str) -> None:
     """Options whose meaning is settled but that nothing implements here."""
     if client == "reference":
         raise UserError("the reference client is not part of this version; use --client openfoam", 2)
+    if client:
+        find_client(client)
     if device == "cuda" and not is_built_with_cuda():
         raise UserError("this build computes particles on the CPU only; use --device cpu, or leave it out, or build "
                         "with CUDA as docs/gpu.md says", 2)
-    if ranks != 1:
-        raise UserError(f"this version runs one client process, not {ranks}; leave out --ranks", 2)
 
 
 def check_client(case: CaseDescription, options: argparse.Namespace) -> None:
     if case.client == "none" and options.client:
         raise UserError(f"{shown(case.file)} has no fluid (client = \"none\"); leave out --client", 2)
+    if case.client == "none" and options.trace:
+        raise UserError(f"{shown(case.file)} has no fluid (a trace shows the steps of two programs); leave out --trace",
+                        2)
 
 
 def choose(case: CaseDescription, options: argparse.Namespace) -> CaseDescription:
@@ -98,7 +115,8 @@ def choose(case: CaseDescription, options: argparse.Namespace) -> CaseDescriptio
     case.until = options.until or case.until
     case.device = options.device
     case.precision = options.precision
-    refuse_what_is_to_come(case.client, "auto", 1)
+    refuse_what_is_to_come(case.client, "auto")
+    parallel.check(options.ranks, case.client)
     return case
 
 
@@ -107,14 +125,17 @@ class Run:
     """One run in its folder."""
 
     case: CaseDescription
+    client: Program | None  # None: particles alone
     folder: Path
     endpoint: Endpoint
     threads: int | None
     restart: Restart | None = None
+    ranks: int = 1
+    trace: list[str] = field(default_factory=list)  # options of the server
 
     @property
     def client_log(self) -> Path:
-        return self.folder / "log.gimdemFoam"
+        return self.folder / f"log.{self.client.name if self.client else 'none'}"
 
     @property
     def server_log(self) -> Path:
@@ -125,6 +146,7 @@ class Run:
             "case": str(self.case.file), "client": self.case.client, "grid": self.case.grid,
             "schedule": self.case.schedule, "until": self.case.until, "threads": self.threads,
             "endpoint": self.endpoint.address, "restart": str(self.restart.checkpoint) if self.restart else None,
+            "ranks": self.ranks,
         }
 
     def start_server(self, stderr: int) -> subprocess.Popen[bytes]:
@@ -139,33 +161,53 @@ class Run:
             command += ["--threads", str(self.threads)]
         if self.restart:
             command += ["--restart", str(self.restart.checkpoint)]
+        command += self.trace
         with self.server_log.open("ab") as log:
             return spawn(command, stdout=log, stderr=stderr)
 
-    def start_client(self) -> subprocess.Popen[bytes]:
-        command = [str(openfoam_client_binary()), "-case", str(self.folder), "-endpoint", self.endpoint.address]
+    def start_client(self, scratch: parallel.Scratch) -> subprocess.Popen[bytes]:
+        assert self.client is not None
+        command = parallel.command(self.client.start_command(self.folder, self.endpoint.address, self.case.keys),
+                                   self.ranks)
+        environment = {**self.client.environment(), "GIMDEM_CLIENT_LOG": str(self.folder / "log.client.jsonl")}
         with self.client_log.open("ab") as log:
-            return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder, env=openfoam.environment())
+            return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder,
+                         env=scratch.environment(environment))
+
+    def carry_out(self) -> Outcome:
+        """Both processes, to their end."""
+        scratch = parallel.Scratch(self.ranks)
+        try:
+            start_client = (lambda: self.start_client(scratch)) if self.client else None
+            name = self.client.name if self.client else ""
+            return Supervisor(self.case.timeout, name).run(self.start_server, self.endpoint.bound, start_client)
+        finally:
+            scratch.remove()
 
 
-def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: Endpoint) -> int:
+def run_in_folder(case: CaseDescription, client: Program | None, options: argparse.Namespace, endpoint: Endpoint) -> int:
+    parallel.reconstruct_before_restart(case, options.restart)
     restart = find_restart(case, options.restart)
-    run = Run(case, make_run_folder(case, options.output), endpoint, options.threads, restart)
-    alone = case.client == "none"
-    what = "particles alone" if alone else f"grid {case.grid or 'as it is'}, {case.schedule}"
+    run = Run(case, client, make_run_folder(case, options.output), endpoint, options.threads, restart, options.ranks,
+              trace_options(options))
+    what = "particles alone" if client is None else f"{client.name}, grid {case.grid or 'as it is'}, {case.schedule}"
     say("case", case.title)
     say("run", f"{shown(run.folder)}: {what}, until {case.until:g} s")
     copy_case(case, run.folder)
     if restart:
         restart.copy_fluid(run.folder)
         say("restart", shown(restart.checkpoint))
-    if not alone:
-        say("mesh", make_mesh(case, run.folder))
+    if client:
+        say("mesh", client.make_mesh(case, run.folder))
+    if run.ranks > 1:
+        say("ranks", parallel.decompose(run.folder, run.ranks))
     record = RunRecord(run.folder, run.settings())
     start = time.monotonic()
-    outcome = Supervisor(case.timeout).run(run.start_server, endpoint.bound, None if alone else run.start_client)
+    outcome = run.carry_out()
     wall_time = time.monotonic() - start
     record.finish(in_words(outcome), wall_time)
+    if run.ranks > 1 and not outcome.killed:
+        say("ranks", parallel.reconstruct(run.folder))
     if outcome.killed or not (outcome.good() or outcome.signal):
         raise UserError(failure(outcome, run), exit_code(outcome))
     for word in outcome.last_words:
@@ -176,12 +218,10 @@ def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: 
     return exit_code(outcome)
 
 
-def make_mesh(case: CaseDescription, folder: Path) -> str:
-    """constant/polyMesh of the run, where a restart or the case has not brought one; returns one line about it."""
-    source = mesh_source(case.folder, case.grid)
-    if is_script(source) and not openfoam.has_mesh(folder):
-        return copy_into(folder, source)
-    return openfoam.make_mesh(folder)
+def trace_options(options: argparse.Namespace) -> list[str]:
+    if not options.trace:
+        return []
+    return ["--trace-steps", str(options.trace_steps), "--trace-every", str(options.trace_every)]
 
 
 def in_words(outcome: Outcome) -> str:
@@ -206,7 +246,7 @@ def failure(outcome: Outcome, run: Run) -> str:
     first = outcome.first()
     lines = [f"the run failed: {how_it_ended(first.name, first.code)}"]
     for child in outcome.children():
-        told = " ".join(outcome.last_words) if child is outcome.server else openfoam.error_in(run.client_log)
+        told = " ".join(outcome.last_words) if child is outcome.server else run.client.error_in(run.client_log)
         reason = told or reason_without_words(child, child is first)
         lines += [f"  {child.name}: {reason}"] if reason else []
     logs = [log for log in (run.server_log, run.client_log) if log.exists() and log.stat().st_size]

@@ -44,6 +44,7 @@ Description
 
 #include <csignal>
 #include <memory>
+#include <unistd.h>
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
@@ -93,6 +94,7 @@ static void simulate
     runTime.setEndTime(particles.endTime());
     particles.sendMesh(mesh);
     particles.getSolid(alpha, K, M);
+    const label fluidSteps = particles.fluidSteps();
 
     #include "initialFlux.H"
     #include "setFluid.H"
@@ -103,7 +105,9 @@ static void simulate
 
     while (runTime.run() && !particles.stopRequested())
     {
-        const scalar deltaT = runTime.deltaTValue();
+        // A coupling step has fluidSteps equal steps of the fluid. In schedule
+        // iterated it has one, which is repeated
+        const scalar deltaT = fluidSteps*runTime.deltaTValue();
         try
         {
             particles.beginStep(runTime.value(), deltaT);
@@ -116,32 +120,68 @@ static void simulate
         }
 
         clockTime clock;
-        ++runTime;
-
-        particles.getSolid(alpha, K, M);
-        #include "updateSolid.H"
-
-        while (pimple.loop())
-        {
-            #include "UEqn.H"
-
-            while (pimple.correct())
-            {
-                #include "pEqn.H"
-            }
-        }
-
-        requireConvergent
+        bool writeDue = false;
+        bool repeats = false;
+        const volScalarField p0
         (
-            runTime,
-            "velocity in m/s",
-            Foam::sqrt(gMax(magSqr(U.primitiveField()))),
-            pimple.dict().getOrDefault<scalar>("maxVelocity", 340)
+            IOobject
+            (
+                "p0",
+                runTime.timeName(),
+                mesh,
+                IOobject::NO_READ,
+                IOobject::NO_WRITE,
+                false
+            ),
+            p
         );
-        #include "setFluid.H"
+
+        do
+        {
+            for (label stepsLeft = fluidSteps; stepsLeft > 0; --stepsLeft)
+            {
+                if (repeats)
+                {
+                    #include "restoreFluid.H"
+                }
+                else
+                {
+                    ++runTime;
+                    writeDue = writeDue || runTime.writeTime();
+                }
+
+                particles.getSolid(alpha, K, M, stepsLeft);
+                #include "updateSolid.H"
+
+                while (pimple.loop())
+                {
+                    #include "UEqn.H"
+
+                    while (pimple.correct())
+                    {
+                        #include "pEqn.H"
+                    }
+                }
+
+                requireConvergent
+                (
+                    runTime,
+                    "velocity in m/s",
+                    Foam::sqrt(gMax(magSqr(U.primitiveField()))),
+                    pimple.dict().getOrDefault<scalar>("maxVelocity", 340)
+                );
+            }
+            #include "setFluid.H"
+
+            repeats = particles.iterate();
+        } while (repeats);
 
         const scalar compute = clock.timeIncrement();
-        runTime.write();
+        if (writeDue)
+        {
+            // Only here do both solvers stand at the same time
+            runTime.writeNow();
+        }
         particles.endStep(compute, clock.timeIncrement());
 
         #include "reportStep.H"
@@ -178,6 +218,37 @@ static string reasonOf(const error& e)
 }
 
 
+//- Wait until every processor has come here, so many seconds at most: the first
+//  to exit ends them all, and others may still be writing
+static void waitForProcessors(const scalar seconds)
+{
+    const int tag = UPstream::msgType() + 1517;
+    const label first = UPstream::nRequests();
+    const char sent = 0;
+    List<char> received(Pstream::nProcs());
+
+    for (label proci = 0; proci < Pstream::nProcs(); ++proci)
+    {
+        if (proci != Pstream::myProcNo())
+        {
+            const auto nonBlocking = UPstream::commsTypes::nonBlocking;
+            UIPstream::read(nonBlocking, proci, &received[proci], 1, tag);
+            UOPstream::write(nonBlocking, proci, &sent, 1, tag);
+        }
+    }
+
+    const clockTime clock;
+    for (label i = first; i < UPstream::nRequests(); ++i)
+    {
+        while (!UPstream::finishedRequest(i) && clock.elapsedTime() < seconds)
+        {
+            usleep(10000);
+        }
+    }
+    UPstream::resetRequests(first);
+}
+
+
 //- Keep freed memory: OpenFOAM makes and drops large fields all the time, and
 //  each one fresh from the system costs its page faults (a tenth of a step)
 static void keepFreedMemory()
@@ -194,18 +265,6 @@ int main(int argc, char *argv[])
 {
     keepFreedMemory();
 
-    for (int i = 1; i < argc; ++i)
-    {
-        if (std::string(argv[i]) == "-parallel")
-        {
-            std::cerr
-                << "gimdemFoam: -parallel is not possible yet (the mesh is sent"
-                << " by one process); run without it" << std::endl;
-            return 1;
-        }
-    }
-
-    argList::noParallel();
     argList::addNote
     (
         "The fluid of a coupled run: volume-averaged Navier-Stokes equations,"
@@ -248,6 +307,7 @@ int main(int argc, char *argv[])
     }
     Info<< flush;
     std::cerr << "gimdemFoam: " << reason << std::endl;
+    waitForProcessors(2);
 
     // Not return: the end of args makes the exit code 0, whatever is returned
     UPstream::exit(1);

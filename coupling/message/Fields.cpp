@@ -73,6 +73,13 @@ void check_size(FieldEntry<Fields> const& entry, Span<double const> values, std:
                                              "); pass the whole field, the peer needs it");
 }
 
+[[noreturn]] void refuse_divergence(std::string const& name, unsigned components, Span<double const> values,
+                                    std::size_t i)
+{
+    throw CouplingError(Fault::user, not_finite_text(name, components, values, i) +
+                                         " (the solution has diverged); try a smaller time step");
+}
+
 /// The cells of a field that travel; none where it travels whole.
 std::optional<CellRuns> cells_to_send(FieldLayout const& layout, std::string const& field, std::size_t cell_count)
 {
@@ -144,8 +151,7 @@ bool pack_rows(Unfilled const& field, v1::ArrayHeader const& header, transport::
     if (!i)
         throw CouplingError(Fault::user, "field \"" + header.name() +
                                              "\" has a number beyond the largest float (3.4e38); do without float32");
-    throw CouplingError(Fault::user, not_finite_text(header.name(), header.components(), field.values, *i) +
-                                         " (the solution has diverged); try a smaller time step");
+    refuse_divergence(header.name(), header.components(), field.values, *i);
 }
 
 bool is_used_in_place(v1::ArrayHeader const& header)
@@ -200,6 +206,17 @@ void lay_out_fields(Message& message, FieldChoice<Fields> const& choice, Fields 
             {message.arrays.size(), values, offset.has_value(), std::move(cells), layout.encodings.lz4 && !offset});
         message.arrays.push_back(std::move(frame));
         if (offset) mark_shared(message, *offset);
+    }
+}
+
+template <class Fields>
+void check_fields(FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count)
+{
+    for (auto const& entry : choice)
+    {
+        Span<double const> const values = fields.*entry.values;
+        check_size(entry, values, cell_count);
+        if (auto const i = first_not_finite(values)) refuse_divergence(entry.name, entry.components, values, *i);
     }
 }
 
@@ -272,6 +289,7 @@ template void lay_out_fields(Message&, FieldChoice<FluidFields> const&, FluidFie
                              transport::SendMemory const&, FieldLayout const&);
 template void lay_out_fields(Message&, FieldChoice<SolidFields> const&, SolidFields const&, std::size_t,
                              transport::SendMemory const&, FieldLayout const&);
+template void check_fields(FieldChoice<SolidFields> const&, SolidFields const&, std::size_t);
 template std::size_t shared_bytes(FieldChoice<FluidFields> const&, std::size_t, bool);
 template std::size_t shared_bytes(FieldChoice<SolidFields> const&, std::size_t, bool);
 template FluidFields view_fields(Message const&, FieldChoice<FluidFields> const&, std::size_t, FieldStore const&);

@@ -60,6 +60,10 @@ template <class Fields>
 void lay_out_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
                     transport::SendMemory const& memory, FieldLayout const& layout = {});
 
+/// Fault::user if one of the chosen fields has not cell_count rows, or has a NaN or infinity in it.
+template <class Fields>
+void check_fields(FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count);
+
 /// Copies what is unfilled; calls filled(n) when n arrays of the message are. Fault::user for a NaN or infinity.
 void fill(Message& message, std::function<void(std::size_t)> const& filled = {});
 
@@ -71,6 +75,16 @@ void look_through(Message& message, std::size_t count);
 /// large ones.
 template <class Fields>
 std::size_t shared_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count, bool any_size = false);
+
+/// Bytes of the chosen fields.
+template <class Fields>
+std::size_t field_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count)
+{
+    std::size_t components = 0;
+    for (auto const& entry : choice)
+        components += entry.components;
+    return components * cell_count * sizeof(double);
+}
 
 /// The chosen fields, in place, or in the store if they travel in another form than they are used; the others are
 /// empty. Fault::protocol if the message has others than the chosen ones, or the wrong sizes, or a NaN or infinity.

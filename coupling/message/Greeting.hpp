@@ -21,8 +21,13 @@ struct Hello
     std::vector<std::string> wants;
     std::optional<Schedule> schedule;
     double timeout = 0;  ///< of the client [s]
+    bool iterates = false;
+    Rank rank;
     Encodings encodings = {};  ///< that the client can use
 };
+
+/// What cannot be true of a rank, in words.
+std::optional<std::string> find_rank_fault(Rank const& rank);
 
 Message pack(Hello const& hello);
 Message pack(Welcome const& welcome);

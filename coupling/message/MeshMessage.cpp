@@ -66,6 +66,7 @@ Message pack(MeshView const& mesh)
         entry.set_kind(to_wire(patch.kind));
         entry.set_start_face(patch.start_face);
         entry.set_face_count(patch.face_count);
+        if (patch.kind == PatchKind::processor) entry.set_neighbour_rank(patch.neighbour_rank);
     }
     append_array(message, "points", 3, mesh.points);
     append_array(message, "face_offsets", 1, mesh.face_offsets);
@@ -82,7 +83,8 @@ Mesh unpack_mesh(Message const& message)
     Mesh mesh;
     mesh.cell_count = body.cell_count();
     for (v1::Patch const& patch : body.patches())
-        mesh.patches.push_back({patch.name(), from_wire(patch), patch.start_face(), patch.face_count()});
+        mesh.patches.push_back(
+            {patch.name(), from_wire(patch), patch.start_face(), patch.face_count(), patch.neighbour_rank()});
     mesh.points = copy_array<double>(message, "points", 3);
     mesh.face_offsets = copy_array<std::int32_t>(message, "face_offsets", 1);
     mesh.face_points = copy_array<std::int32_t>(message, "face_points", 1);

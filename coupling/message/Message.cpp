@@ -55,6 +55,10 @@ std::string kind_name(Kind kind)
             return "Goodbye";
         case Kind::kFluidWanted:
             return "FluidWanted";
+        case Kind::kStatusRequest:
+            return "StatusRequest";
+        case Kind::kStatus:
+            return "Status";
         case Kind::KIND_NOT_SET:
             break;
     }

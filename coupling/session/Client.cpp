@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "gimdem/coupling/Status.hpp"
 #include "message/Greeting.hpp"
 #include "message/MeshMessage.hpp"
 #include "message/StepMessages.hpp"
+#include "session/ClientRecord.hpp"
 #include "session/ExchangeClock.hpp"
 #include "session/Options.hpp"
 #include "session/Session.hpp"
@@ -33,13 +35,17 @@ struct Client::Impl
     void connect(FluidProperties const& properties);
     void send_mesh(MeshView const& mesh);
     void begin_step(Step const& step, FluidFields const& fields, std::vector<Monitor> const& monitors);
-    void end_step(Timings const& timings);
+    void iterate_step(FluidFields const& estimate, double residual);
+    void end_step(Timings const& timings, double residual);
+    void send_fluid(Event call, FluidState const& given, Time entered);
+    Event begin_event() const;
     void finish(std::string const& reason);
 
+    void check_rank_endpoints();
     session::Letter receive(std::string const& awaited);
     Time take_solid();
     void send_whole_fluid();
-    bool is_serial() const { return welcome.schedule == Schedule::serial; }
+    bool overlaps() const { return welcome.schedule == Schedule::overlapped; }
 
     /// Runs a call; a fault that leaves the session alive is remembered, in case the program ends because of it.
     template <class Body>
@@ -53,30 +59,39 @@ struct Client::Impl
         catch (CouplingError const& error)
         {
             session.note(error.what());
+            record.log().write(LogLevel::error, "fault", error.what());
             throw;
         }
     }
 
     ClientOptions options;
+    std::optional<transport::ClientKeys> keys;
     Welcome welcome;
     message::Terms terms;
     session::SharedFields shared;    ///< outlives the messages that lie in it
     message::Message solid_message;  ///< holds the bytes that the spans of solid show
     message::SolidState solid;
-    FluidState fluid;  ///< of begin_step() while it lasts, in case the server wants all of it
-    Timings previous;  ///< of the last fluid step
-    std::int64_t step = 0;
+    FluidState fluid;              ///< that was sent last, while its spans live: the server may want all of it
+    Timings previous;              ///< of the last fluid step
+    double previous_residual = 0;  ///< of the last pass of the step before
+    Step step;
+    int pass = 0;  ///< of this step
     session::ExchangeClock clock;
+    session::ClientRecord record;
+    Time fluid_sent;  ///< of this step
     session::Session session;
 };
 
 Client::Impl::Impl(ClientOptions given)
-    : options(std::move(given)), session(transport::Role::client, options.name, options.timeout)
+    : options(std::move(given)),
+      session(transport::Role::client, session::name_of_rank(options.name, options.rank), options.timeout)
 {
     session::require_name(options.name, "ClientOptions.name");
+    session::require_rank(options.rank);
     session::require_seconds(options.timeout, message::min_timeout, "ClientOptions.timeout");
     session::require_seconds(options.connect_time, 0, "ClientOptions.connect_time");
     session::require_seconds(options.step_time, message::min_timeout, "ClientOptions.step_time");
+    if (!options.keys.empty()) keys = transport::read_client_keys(options.keys);
     if (options.wants.empty()) options.wants = {field::void_fraction, field::drag_coefficient, field::drag_momentum};
     terms.solid = message::choose_solid_fields(options.wants, Fault::user);
 }
@@ -84,25 +99,42 @@ Client::Impl::Impl(ClientOptions given)
 void Client::Impl::connect(FluidProperties const& properties)
 {
     session.require(Event::connect);
-    session.open(transport::Socket::connect(options.endpoint));
+    session.open(transport::Socket::connect(options.endpoint, keys));
     session.advance(Event::connect);
     shared.want(options.shared_memory && session.is_ipc());
-    message::Message hello =
-        message::pack(message::Hello{options.name, properties, options.wants, options.schedule, options.timeout, options.encodings});
+    message::Message hello = message::pack(
+        message::Hello{.name = options.name,
+                       .fluid = properties,
+                       .wants = options.wants,
+                       .schedule = options.schedule,
+                       .timeout = options.timeout,
+                       .iterates = options.iterates,
+                       .rank = options.rank,
+                       .encodings = options.encodings});
     shared.offer(hello);
+    record.stamp(hello);
+    Time const hello_sent = Clock::now();
     session.send(std::move(hello));
 
     if (!session.wait_for_contact(Clock::now() + ticks(options.connect_time)))
         session.fail(Fault::endpoint, "no server has answered at " + options.endpoint + " within " +
-                                          session::seconds_text(options.connect_time) +
+                                          session::seconds_text(options.connect_time) + session.connection_note() +
                                           " (none runs there, or it is not a gimdem server); start gimdem-server with "
                                           "the same endpoint");
     session::Letter const letter = receive("Welcome");
     welcome = session.read([&] { return message::unpack_welcome(letter.message); });
     session.set_peer_name(welcome.server);
+    check_rank_endpoints();
     shared.agree(letter.message);
     terms.encodings = both(welcome.encodings, options.encodings);
+    session.read([&] { record.heard(letter.message, hello_sent, letter.arrival); });
     terms.fluid = session.read([&] { return message::choose_fluid_fields(welcome.needs, Fault::protocol); });
+    record.log().write(LogLevel::info, "connected", "connected to " + welcome.server,
+                       {{"endpoint", options.endpoint},
+                        {"title", welcome.title},
+                        {"schedule", name_of(welcome.schedule)},
+                        {"clock_offset_s", record.offset() ? record.offset()->offset : not_known},
+                        {"clock_uncertainty_s", record.offset() ? record.offset()->uncertainty : not_known}});
 }
 
 void Client::Impl::send_mesh(MeshView const& mesh)
@@ -112,6 +144,7 @@ void Client::Impl::send_mesh(MeshView const& mesh)
     session.look_for_trouble("the mesh of its program");
     session.advance(Event::send_mesh);
     terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
+    session.limit_arrays(message::field_bytes(terms.solid, terms.cell_count));
     shared.announce(message, message::shared_bytes(terms.fluid, terms.cell_count, terms.encodings.sparse));
     session.send(std::move(message));
 
@@ -120,51 +153,103 @@ void Client::Impl::send_mesh(MeshView const& mesh)
     session.use(shared.use_if_confirmed(letter.message, terms.memory));
     session.use(session.read([&] { return shared.map_announced(letter.message); }));
     take_solid();
+    record.log().write(LogLevel::info, "mesh_accepted", "the server holds the mesh",
+                       {{"cells", static_cast<double>(mesh.cell_count)}});
 }
 
 void Client::Impl::begin_step(Step const& next, FluidFields const& fields, std::vector<Monitor> const& monitors)
 {
-    Time const entered = Clock::now();
-    Event const call = is_serial() ? Event::begin_serial_step : Event::begin_overlapped_step;
-    session.require(call);
-
     ExchangeTimes const& so_far = clock.times();
-    fluid = {next, fields, monitors, previous, so_far.exchange, so_far.waiting, true};
+    send_fluid(begin_event(), {next, fields, monitors, previous, so_far.exchange, so_far.waiting, 0, previous_residual},
+               Clock::now());
+}
+
+void Client::Impl::iterate_step(FluidFields const& estimate, double residual)
+{
+    ExchangeTimes const& so_far = clock.times();
+    send_fluid(Event::iterate_step, {step, estimate, {}, previous, so_far.exchange, so_far.waiting, pass + 1, residual},
+               Clock::now());
+}
+
+Event Client::Impl::begin_event() const
+{
+    switch (welcome.schedule)
+    {
+        case Schedule::overlapped:
+            return Event::begin_overlapped_step;
+        case Schedule::iterated:
+            return Event::begin_iterated_step;
+        default:
+            return Event::begin_serial_step;
+    }
+}
+
+/// Sends a fluid and, unless both compute at once, takes its answer.
+void Client::Impl::send_fluid(Event call, FluidState const& given, Time entered)
+{
+    session.require(call);
+    fluid = given;
     message::Message message = message::lay_out(fluid, terms);
     shared.confirm(message);
+    record.put_into_fluid(message);
     session.prepare(message);
     session.look_for_trouble("the fluid of its program");
-    step = next.number;
-    session.set_step(step);
+    step = fluid.step;
+    pass = fluid.pass;
+    session.set_step(step.number);
     session.advance(call);
     session.send(std::move(message));
     terms.memory.message_sent();
-    clock.sent(entered, Clock::now());
+    fluid_sent = Clock::now();
+    clock.sent(entered, fluid_sent);
+    record.began(step.number, entered, fluid_sent);
 
-    if (!is_serial()) return;
-    take_solid();
-    clock.answered_serial(Clock::now(), solid.busy_time);
+    if (overlaps()) return;
+    Time const arrival = take_solid();
+    Time const left = Clock::now();
+    double const waiting = clock.answered_serial(left, solid.busy_time);
+    record.began(step.number, entered, left);
+    record.waited_in_begin(fluid_sent, arrival, waiting);
 }
 
-void Client::Impl::end_step(Timings const& timings)
+void Client::Impl::end_step(Timings const& timings, double residual)
 {
     Time const entered = Clock::now();
     session.require(Event::end_step);
     session.advance(Event::end_step);
     previous = timings;
+    previous_residual = residual;
 
-    if (is_serial()) return;
+    if (!overlaps()) return record.ended(entered, Clock::now(), 0);
     Time const arrival = take_solid();
-    clock.answered_overlapped(entered, arrival, Clock::now(), solid.busy_time);
+    Time const left = Clock::now();
+    record.ended(entered, left, clock.answered_overlapped(entered, arrival, left, solid.busy_time));
 }
 
 void Client::Impl::finish(std::string const& reason)
 {
     session.require(Event::finish);
     bool const greeted = session.state() != State::created && session.state() != State::finished;
-    if (greeted) session.send(message::pack_goodbye(reason));
+    message::Message goodbye = message::pack_goodbye(reason);
+    record.put_into_goodbye(goodbye, previous);
+    if (greeted) session.send(std::move(goodbye));
+    record.log().write(LogLevel::info, "finished", reason,
+                       {{"steps", static_cast<double>(step.number)},
+                        {"exchange_s", clock.times().exchange},
+                        {"waiting_s", clock.times().waiting},
+                        {"bytes", clock.times().bytes}});
     session.advance(Event::finish);
     session.close();
+}
+
+/// A server of protocol 1.0 would take rank 0 for the whole client.
+void Client::Impl::check_rank_endpoints()
+{
+    auto const expected = static_cast<std::size_t>(options.rank.number == 0 ? options.rank.count - 1 : 0);
+    if (welcome.rank_endpoints.size() == expected) return;
+    session.fail(Fault::version, session.peer_name() + " told endpoints for " +
+                                     std::to_string(welcome.rank_endpoints.size()) + " more ranks instead of " +
+                                     std::to_string(expected) + "; update it, or run one process");
 }
 
 session::Letter Client::Impl::receive(std::string const& awaited)
@@ -175,29 +260,34 @@ session::Letter Client::Impl::receive(std::string const& awaited)
 /// Receives the solid of the current step; returns when it arrived.
 Time Client::Impl::take_solid()
 {
-    std::string const awaited = "SolidState of step " + std::to_string(step);
-    session::Letter letter = receive(awaited);
+    std::string const awaited =
+        "step " + std::to_string(step.number) + (pass > 0 ? ", pass " + std::to_string(pass) : "");
+    session::Letter letter = receive("SolidState of " + awaited);
     while (letter.message.kind() == message::Kind::kFluidWanted)
     {
         send_whole_fluid();
-        letter = receive(awaited);
+        letter = receive("SolidState of " + awaited);
     }
-    if (letter.message.envelope.step() != step)
+    v1::Envelope const& envelope = letter.message.envelope;
+    if (envelope.step() != step.number || envelope.iteration() != pass)
         session.fail(Fault::protocol, message::describe(letter.message) + " from " + session.peer_name() +
-                                          " is out of order (it should answer step " + std::to_string(step) +
+                                          " is out of order (it should answer " + awaited +
                                           "); the two programs do not fit together, see docs/protocol.md");
     session.read([&] { shared.attach(letter.message); });
     solid = session.read([&] { return message::unpack_solid_state(letter.message, terms); });
+    session.read([&] { record.heard(letter.message, fluid_sent, letter.arrival); });
     terms.needed = solid.cells.needed;
     solid_message = std::move(letter.message);
     return letter.arrival;
 }
 
+/// The same fluid again, with all cells.
 void Client::Impl::send_whole_fluid()
 {
     terms.needed.clear();
     message::Message message = message::lay_out(fluid, terms);
     shared.confirm(message);
+    record.put_into_fluid(message);
     session.prepare(message);
     session.send(std::move(message));
     terms.memory.message_sent();
@@ -225,9 +315,15 @@ SolidFields const& Client::begin_step(Step const& step, FluidFields const& fluid
     return impl_->solid.fields;
 }
 
-void Client::end_step(Timings const& timings)
+SolidFields const& Client::iterate_step(FluidFields const& estimate, double residual)
 {
-    impl_->guard([&] { impl_->end_step(timings); });
+    impl_->guard([&] { impl_->iterate_step(estimate, residual); });
+    return impl_->solid.fields;
+}
+
+void Client::end_step(Timings const& timings, double residual)
+{
+    impl_->guard([&] { impl_->end_step(timings, residual); });
 }
 
 void Client::finish(std::string const& reason)
@@ -237,6 +333,14 @@ void Client::finish(std::string const& reason)
 
 void Client::abort(std::string const& reason) noexcept
 {
+    try
+    {
+        impl_->record.log().write(LogLevel::error, "aborted", reason);
+    }
+    catch (std::exception const&)
+    {
+        // The log is of no use to a program that is out of memory.
+    }
     impl_->session.abort(Fault::user, reason);
 }
 

@@ -43,6 +43,7 @@ public:
     /// A look at the first letter, if there is one: its kind, or KIND_NOT_SET for one that is no message.
     std::optional<message::Kind> peek() const;
     bool has_ended() const;
+    std::optional<transport::Ending> ending() const;
     bool has_contact() const;
 
 private:

@@ -41,14 +41,18 @@ Session::~Session()
     abort(Fault::user, why);
 }
 
-void Session::open(transport::Socket socket)
+void Session::open(transport::Socket socket, std::function<void(std::string const&)> log)
 {
+    log_ = std::move(log);
     transport::ChannelHooks hooks;
     hooks.deliver = [this](transport::Frames frames, Time arrival) { return on_frames(std::move(frames), arrival); };
     hooks.heartbeat = [this] { return on_heartbeat_due(); };
     hooks.may_open = [this](transport::Frame const& first)
     { return role_ == Role::client || message::may_open(message::peek_kind(first)); };
     hooks.answer_stranger = [this](transport::Frames frames) { return on_stranger(std::move(frames)); };
+    hooks.note = [this](std::string const& text) { on_note(text); };
+    if (role_ == Role::server)
+        hooks.answer_question = [this](transport::Frames& frames) { return on_question(frames); };
     hooks.ended = [this](transport::Ending ending) { inbox_.end(std::move(ending)); };
     endpoint_ = socket.endpoint();
     channel_ = std::make_unique<transport::Channel>(std::move(socket), timeout_, std::move(hooks));
@@ -78,13 +82,25 @@ void Session::advance(Event event)
 {
     std::lock_guard<std::mutex> const lock(mutex_);
     state_ = next_state(rules_, state_, event).value_or(State::failed);
+    state_since_ = transport::Clock::now();
     ++progress_;
+}
+
+void Session::note_heard(Time arrival)
+{
+    std::lock_guard<std::mutex> const lock(mutex_);
+    heard_ = std::max(heard_.value_or(arrival), arrival);
 }
 
 void Session::set_step(std::int64_t step)
 {
     std::lock_guard<std::mutex> const lock(mutex_);
     step_ = step;
+}
+
+void Session::limit_arrays(std::size_t bytes)
+{
+    most_array_bytes_ = std::max(bytes, least_limit);
 }
 
 void Session::choose_session_number()
@@ -149,18 +165,43 @@ Letter Session::receive(std::string const& awaited, Time deadline, double patien
     Message const& message = delivery.letter->message;
     bytes_ += static_cast<double>(message.envelope.ByteSizeLong() + message::array_bytes(message));
     advance(*event_of(message.kind()));
+    note_heard(delivery.letter->arrival);
     return std::move(*delivery.letter);
+}
+
+bool Session::wait_for_contact(Time deadline)
+{
+    if (!watch_) return inbox_.wait_for_contact(deadline);
+    while (true)
+    {
+        Time const now = transport::Clock::now();
+        if (inbox_.wait_for_contact(std::min(deadline, now + look_interval))) return true;
+        if (now >= deadline) return false;
+        watch_();
+    }
+}
+
+Delivery Session::watched_letter(Time deadline)
+{
+    while (true)
+    {
+        Time const now = transport::Clock::now();
+        Delivery delivery = inbox_.wait(std::min(deadline, now + look_interval));
+        if (delivery.letter || delivery.ending || now >= deadline) return delivery;
+        watch_();
+    }
 }
 
 Delivery Session::next_letter(Time deadline)
 {
-    if (!postbox_) return inbox_.wait(deadline);
+    if (!postbox_) return watch_ ? watched_letter(deadline) : inbox_.wait(deadline);
     while (true)
     {
         if (auto letter = take_post()) return {std::move(letter), std::nullopt};
         Time const now = transport::Clock::now();
         if (now >= deadline || inbox_.peek() || inbox_.has_ended()) return inbox_.wait(now);
         postbox_->wait(std::min(deadline, now + look_interval));
+        if (watch_) watch_();
     }
 }
 
@@ -194,6 +235,14 @@ void Session::look_for_trouble(std::string const& awaited)
     bool const expected = event && next_state(rules_, state(), *event);
     if (expected) return;
     if (kind || inbox_.has_ended()) receive(awaited, Time::min(), 0);
+}
+
+void Session::look_for_loss(std::string const& awaited)
+{
+    if (is_over()) return;
+    look_for_trouble(awaited);
+    if (inbox_.peek() == Kind::kGoodbye) return;
+    if (auto const ending = inbox_.ending()) fail_by_ending(*ending, awaited);
 }
 
 void Session::check_letter(Letter const& letter, std::string const& awaited)

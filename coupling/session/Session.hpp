@@ -2,7 +2,9 @@
 /// What both sides of a session have in common: state, order, and what to say when something goes wrong.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,11 +14,15 @@
 #include "message/Control.hpp"
 #include "session/Inbox.hpp"
 #include "session/States.hpp"
+#include "session/StatusDesk.hpp"
 #include "transport/Channel.hpp"
 #include "transport/Mailbox.hpp"
 
 namespace gimdem::coupling::session
 {
+
+/// Arrays of this size may come at any time; the checks of a message tell more than its size does [byte].
+inline constexpr std::size_t least_limit = std::size_t{1} << 20;
 
 using transport::Role;
 using transport::Time;
@@ -35,8 +41,8 @@ public:
     Session(Session const&) = delete;
     Session& operator=(Session const&) = delete;
 
-    /// Starts to talk over the socket.
-    void open(transport::Socket socket);
+    /// Starts to talk over the socket. log: what the program's user may like to know, told on the I/O thread.
+    void open(transport::Socket socket, std::function<void(std::string const&)> log = {});
 
     State state() const;
     std::string const& endpoint() const { return endpoint_; }
@@ -61,10 +67,17 @@ public:
     void use(std::unique_ptr<transport::Outbox> outbox) { outbox_ = std::move(outbox); }
     void use(std::unique_ptr<transport::Postbox> postbox) { postbox_ = std::move(postbox); }
 
+    /// From now on a message of the peer with more bytes in its arrays is refused unread. It may always have a few.
+    void limit_arrays(std::size_t bytes);
+
     /// The next message, checked against the state table. awaited: what we wait for, in words.
     Letter receive(std::string const& awaited, Time deadline, double patience);
     /// False if the peer has not appeared by then.
-    bool wait_for_contact(Time deadline) { return inbox_.wait_for_contact(deadline); }
+    bool wait_for_contact(Time deadline);
+    /// What receive() and wait_for_contact() call every 20 ms while nothing comes; what it throws ends the waiting.
+    void set_watch(std::function<void()> watch) { watch_ = std::move(watch); }
+    /// Throws if the peer is gone, or has sent what is not allowed now; leaves unread what it has sent otherwise.
+    void look_for_loss(std::string const& awaited);
     /// Throws what receive() would throw at once: a fault that is known before we send more.
     void look_for_trouble(std::string const& awaited);
 
@@ -73,6 +86,9 @@ public:
     auto read(Unpack unpack) -> decltype(unpack());
     /// Remembers a fault that did not end the session, as the likely reason if it ends soon.
     void note(std::string const& text) { last_fault_ = text; }
+
+    /// Server: what it answers to a StatusRequest.
+    StatusDesk& status_desk() { return desk_; }
 
     /// Ends the session: tells the peer, and throws.
     [[noreturn]] void fail(Fault fault, std::string const& text);
@@ -85,12 +101,16 @@ public:
     std::string our_name() const;
     std::string peer_name() const;
     void set_peer_name(std::string const& name);
+    /// What the connection met with last, " (...)"; empty if nothing.
+    std::string connection_note() const;
 
 private:
     bool is_over() const;
     Delivery next_letter(Time deadline);
+    Delivery watched_letter(Time deadline);
     std::optional<Letter> take_post();
     void stamp(message::Message& message) const;
+    void note_heard(Time arrival);
     void fall(std::string const& why);
     void tell(Fault fault, std::string const& reason);
     void check_letter(Letter const& letter, std::string const& awaited);
@@ -105,7 +125,10 @@ private:
     std::optional<double> on_frames(transport::Frames frames, Time arrival);
     std::optional<double> on_message(message::Message message, Time arrival);
     transport::Frames on_heartbeat_due() const;
+    void on_note(std::string const& text);
     transport::Frames on_stranger(transport::Frames frames) const;
+    std::optional<transport::Frames> on_question(transport::Frames& frames);
+    Status status() const;
 
     Role const role_;
     std::string const name_;
@@ -114,20 +137,27 @@ private:
     std::string endpoint_;
     std::string last_fault_;
     double bytes_ = 0;
+    std::atomic<std::size_t> most_array_bytes_{least_limit};
+    std::function<void(std::string const&)> log_;
     std::uint64_t session_number_ = 0;
 
     mutable std::mutex mutex_;  ///< guards what follows
     State state_;
+    Time state_since_ = transport::Clock::now();
+    std::optional<Time> heard_;  ///< the peer, the last time
     std::int64_t step_ = 0;
     std::uint64_t progress_ = 0;
-    std::string peer_;                   ///< name
+    std::string peer_;  ///< name
+    std::string connection_note_;
     message::Heartbeat peer_heartbeat_;  ///< the last one
 
+    StatusDesk desk_;
     Inbox inbox_;
     std::unique_ptr<transport::Outbox> outbox_;    ///< null: everything goes through the channel
     std::unique_ptr<transport::Postbox> postbox_;  ///< null: everything comes through the channel
     bool is_announced_ = false;                    ///< prepare() told the peer
     std::optional<message::Message> incoming_;     ///< announced by the peer, perhaps not complete yet
+    std::function<void()> watch_;
     std::unique_ptr<transport::Channel> channel_;  ///< last: its thread uses the rest
 };
 

@@ -12,7 +12,7 @@ using S = State;
 using E = Event;
 using message::Kind;
 
-std::array<Rule, 18> constexpr client_table{{
+std::array<Rule, 22> constexpr client_table{{
     {S::created, E::connect, S::greeting},
     {S::greeting, E::welcome, S::welcomed},
     {S::welcomed, E::send_mesh, S::meshing},
@@ -27,12 +27,18 @@ std::array<Rule, 18> constexpr client_table{{
     {S::ready, E::begin_overlapped_step, S::overlapping},
     {S::overlapping, E::end_step, S::overlapping},
     {S::overlapping, E::solid_state, S::ready},
+    // iterated
+    {S::ready, E::begin_iterated_step, S::awaiting},
+    {S::awaiting, E::solid_state, S::iterating},
+    {S::iterating, E::iterate_step, S::awaiting},
+    {S::iterating, E::end_step, S::ready},
     // the end
     {S::created, E::finish, S::finished},
     {S::welcomed, E::finish, S::finished},
     {S::ready, E::finish, S::finished},
     {S::solving, E::finish, S::finished},
     {S::overlapping, E::finish, S::finished},
+    {S::iterating, E::finish, S::finished},
     {S::finished, E::finish, S::finished},
 }};
 
@@ -98,6 +104,10 @@ std::string name_of(State state)
             return "solving";
         case S::overlapping:
             return "overlapping";
+        case S::awaiting:
+            return "awaiting";
+        case S::iterating:
+            return "iterating";
         case S::computing:
             return "computing";
         case S::completing:
@@ -120,7 +130,10 @@ std::string name_of(Event event)
             return "send_mesh()";
         case E::begin_serial_step:
         case E::begin_overlapped_step:
+        case E::begin_iterated_step:
             return "begin_step()";
+        case E::iterate_step:
+            return "iterate_step()";
         case E::end_step:
             return "end_step()";
         case E::finish:

@@ -24,6 +24,8 @@ enum class State
     waiting,      ///< client, serial: for the solid of this step, while its program is blocked
     solving,      ///< client, serial: for its program to end the fluid step
     overlapping,  ///< client, overlapped: for its program to end the fluid step, and the solid of the step
+    awaiting,     ///< client, iterated: for the solid of this pass, while its program is blocked
+    iterating,    ///< client, iterated: for its program to repeat or to end the fluid step
     computing,    ///< server: for its program to answer the fluid
     completing,   ///< server: for the cells of the fluid that were left out
     finished,     ///< both: Goodbye was said
@@ -39,6 +41,8 @@ enum class Event
     send_mesh,
     begin_serial_step,
     begin_overlapped_step,
+    begin_iterated_step,
+    iterate_step,
     end_step,
     finish,
     // calls of the server's program

@@ -11,6 +11,7 @@
 #include "app/Describe.hpp"
 #include "app/Options.hpp"
 #include "app/Run.hpp"
+#include "app/StatusCommand.hpp"
 
 namespace
 {
@@ -54,6 +55,11 @@ int main(int argc, char** argv)
     if (!options) return exit_code;
     try
     {
+        if (options->status)
+        {
+            gimdem::app::print_status(*options->status, options->patience, options->json);
+            return 0;
+        }
         gimdem::Case const settings = gimdem::app::read_case_with(*options);
         if (options->describe)
         {
@@ -63,7 +69,7 @@ int main(int argc, char** argv)
         if (settings.run.client == "none")
             gimdem::app::run_alone(settings, options->run_folder, options->restart);
         else
-            gimdem::app::run(settings, options->run_folder, options->restart);
+            gimdem::app::run(settings, options->run_folder, options->restart, options->trace);
         return 0;
     }
     catch (std::exception const& error)

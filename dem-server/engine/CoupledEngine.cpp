@@ -9,6 +9,7 @@
 
 #include "core/Error.hpp"
 #include "engine/InletFlow.hpp"
+#include "engine/StepMemory.hpp"
 #include "exec/Reduce.hpp"
 
 namespace gimdem
@@ -106,7 +107,7 @@ void CoupledEngine::sum_into_cells()
 std::int64_t CoupledEngine::particle_clips() const
 {
     DeviceDem* const device = system_.device();
-    return device == nullptr ? forces_.clipped() : device->clipped();
+    return (device == nullptr ? forces_.clipped() : device->clipped()) - clips_given_up_;
 }
 
 StepReport CoupledEngine::map_initial_state()

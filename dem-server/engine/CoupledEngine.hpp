@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/Case.hpp"
@@ -33,12 +34,15 @@ struct StepReport
     coupling::Timings timings;          ///< compute: DEM, mapping
 };
 
+struct StepMemory;
+
 class CoupledEngine
 {
 public:
     /// Takes particles that are at rest in the mesh. Throws UserError for a particle outside the mesh.
     CoupledEngine(Case const& settings, exec::Execution execution, PolyMesh const& mesh, WallGeometry const& walls,
                   coupling::FluidProperties const& fluid, DemSystem& system);
+    ~CoupledEngine();
 
     /// The solid at t = 0, with the drag of particles in a fluid at rest.
     StepReport map_initial_state();
@@ -48,6 +52,12 @@ public:
     /// whole_fluid: where fluid has only the cells of step_cells(), gives it with all of them.
     StepReport advance(coupling::Step const& step, coupling::FluidFields fluid,
                        std::function<coupling::FluidFields()> const& whole_fluid = {});
+
+    /// Keeps the state between two steps, for go_back().
+    void remember();
+    /// Puts it back, to the bit, with inlets and counts; fields() stay those of the step that is given up. @pre
+    /// remember()
+    void go_back();
 
     /// The solid of the last step; spans live until the next one.
     coupling::SolidFields fields() const;
@@ -91,6 +101,8 @@ private:
     exec::Buffer<std::uint8_t> wall_faces_;
     std::vector<Inlet>* inlets_ = nullptr;
     CellSums sums_;
+    std::unique_ptr<StepMemory> memory_;
+    std::int64_t clips_given_up_ = 0;  ///< counted in steps that were repeated
     exec::Buffer<double> void_fraction_, momentum_source_, drag_coefficient_, drag_momentum_;
     exec::Buffer<std::uint8_t> has_solid_, has_drag_;  ///< flags of the cells
     FluidCoverage coverage_;

@@ -11,6 +11,10 @@
 #include "couplingClient.H"
 #include "polyMeshArrays.H"
 #include "fvc.H"
+#include "StringStream.H"
+#include "Pstream.H"
+
+#include <random>
 
 using namespace gimdem::coupling;
 
@@ -30,6 +34,32 @@ static Span<double const> components(const Field<Type>& f)
         reinterpret_cast<double const*>(f.cdata()),
         std::size_t(f.size())*pTraits<Type>::nComponents
     };
+}
+
+//- Which processor this is, of a run whose number the master draws
+static Rank thisRank()
+{
+    Rank rank;
+
+    if (Pstream::parRun())
+    {
+        string run;
+        if (Pstream::master())
+        {
+            std::random_device random;
+            run = std::to_string
+            (
+                (std::uint64_t(random()) << 32 | random()) | 1
+            );
+        }
+        Pstream::scatter(run);
+
+        rank.number = Pstream::myProcNo();
+        rank.count = Pstream::nProcs();
+        rank.run = std::stoull(run);
+    }
+
+    return rank;
 }
 
 } // End namespace Foam
@@ -64,11 +94,18 @@ ClientOptions Foam::couplingClient::options
         args.found("endpoint")
       ? args.opt<string>("endpoint")
       : dict.get<string>("endpoint");
+    o.keys =
+        args.found("keys")
+      ? args.opt<string>("keys")
+      : dict.getOrDefault<string>("keys", "");
     o.timeout = dict.getOrDefault<scalar>("timeout", o.timeout);
     o.connect_time = dict.getOrDefault<scalar>("connectTime", o.connect_time);
     o.step_time = dict.getOrDefault<scalar>("stepTime", o.step_time);
     o.shared_memory =
         dict.getOrDefault<bool>("sharedMemory", o.shared_memory);
+
+    o.iterates = true;
+    o.rank = thisRank();
 
     const word schedule =
         args.found("schedule")
@@ -83,12 +120,16 @@ ClientOptions Foam::couplingClient::options
     {
         o.schedule = Schedule::overlapped;
     }
+    else if (schedule == "iterated")
+    {
+        o.schedule = Schedule::iterated;
+    }
     else if (schedule != "server")
     {
         FatalErrorInFunction
             << "schedule " << schedule << " of constant/couplingProperties"
-            << " or the command line is unknown; say server, serial or"
-            << " overlapped"
+            << " or the command line is unknown; say server, serial, overlapped"
+            << " or iterated"
             << exit(FatalError);
     }
 
@@ -109,9 +150,16 @@ void Foam::couplingClient::addOptions()
     );
     argList::addOption
     (
+        "keys",
+        "folder",
+        "of keys that the server knows (overrides constant/couplingProperties)"
+    );
+    argList::addOption
+    (
         "schedule",
         "word",
-        "server, serial or overlapped (overrides constant/couplingProperties)"
+        "server, serial, overlapped or iterated"
+        " (overrides constant/couplingProperties)"
     );
 }
 
@@ -120,7 +168,8 @@ void Foam::couplingClient::addOptions()
 
 Foam::couplingClient::couplingClient(const Time& runTime, const argList& args)
 :
-    client_(options(runTime, args))
+    options_(options(runTime, args)),
+    client_(options_)
 {}
 
 
@@ -136,19 +185,62 @@ void Foam::couplingClient::connect
     fluid.density = rho.value();
     fluid.viscosity = mu.value();
 
-    const Welcome& welcome = client_.connect(fluid);
+    // The master comes first and learns where the others are to connect
+    List<string> endpoints(Pstream::nProcs());
+    if (Pstream::master())
+    {
+        const Welcome& welcome = client_.connect(fluid);
+        for (std::size_t i = 0; i < welcome.rank_endpoints.size(); ++i)
+        {
+            endpoints[i + 1] = welcome.rank_endpoints[i];
+        }
+    }
+    Pstream::scatter(endpoints);
+    if (!Pstream::master())
+    {
+        ClientOptions own(options_);
+        own.endpoint = endpoints[Pstream::myProcNo()];
+        client_ = Client(own);
+        client_.connect(fluid);
+    }
+
+    const Welcome& welcome = client_.welcome();
 
     Info<< "Connected to " << welcome.server.c_str() << ": "
         << welcome.title.c_str() << nl
-        << "    schedule "
-        << (welcome.schedule == Schedule::serial ? "serial" : "overlapped")
-        << ", end time " << welcome.end_time << " s" << nl << endl;
+        << "    schedule " << name_of(welcome.schedule)
+        << ", end time " << welcome.end_time << " s";
+    if (welcome.fluid_steps > 1)
+    {
+        Info<< ", " << welcome.fluid_steps << " fluid steps to a coupling step";
+    }
+    Info<< nl << endl;
+
+    if (welcome.schedule != Schedule::iterated)
+    {
+        return;
+    }
+    if (welcome.fluid_steps > 1)
+    {
+        FatalErrorInFunction
+            << "schedule iterated with " << welcome.fluid_steps << " fluid steps"
+            << " to a coupling step (this solver can repeat one step only);"
+            << " leave out fluid_steps, or choose another schedule"
+            << exit(FatalError);
+    }
+    fixedPoint_.reset(new FluidFixedPoint(welcome.iteration));
 }
 
 
 Foam::scalar Foam::couplingClient::endTime() const
 {
     return client_.welcome().end_time;
+}
+
+
+Foam::label Foam::couplingClient::fluidSteps() const
+{
+    return client_.welcome().fluid_steps;
 }
 
 
@@ -221,6 +313,11 @@ void Foam::couplingClient::beginStep(const scalar t, const scalar deltaT)
     step_.dt = deltaT;
 
     client_.begin_step(step_, fluid_, monitors_);
+
+    if (fixedPoint_)
+    {
+        fixedPoint_->start(fluid_);
+    }
 }
 
 
@@ -228,7 +325,8 @@ void Foam::couplingClient::getSolid
 (
     volScalarField& alpha,
     volScalarField& K,
-    volVectorField& M
+    volVectorField& M,
+    const label stepsLeft
 ) const
 {
     const SolidFields& solid = client_.solid();
@@ -239,16 +337,18 @@ void Foam::couplingClient::getSolid
 
     forAll(a, celli)
     {
-        a[celli] = solid.void_fraction[celli];
+        const scalar end = solid.void_fraction[celli];
 
-        if (!(a[celli] > 0 && a[celli] < 1 + 1e-6))
+        if (!(end > 0 && end < 1 + 1e-6))
         {
             FatalErrorInFunction
-                << "the server sent void fraction " << a[celli] << " for cell "
+                << "the server sent void fraction " << end << " for cell "
                 << celli << " at " << alpha.mesh().C()[celli] << " m (the fluid"
                 << " needs 0 < alpha <= 1); check the server's mapping"
                 << exit(FatalError);
         }
+
+        a[celli] = stepsLeft > 1 ? a[celli] + (end - a[celli])/stepsLeft : end;
     }
 
     if (solid.drag_coefficient.empty())
@@ -280,7 +380,41 @@ void Foam::couplingClient::endStep(const scalar compute, const scalar output)
     timings.compute = compute;
     timings.output = output;
 
-    client_.end_step(timings);
+    client_.end_step(timings, fixedPoint_ ? fixedPoint_->residual() : 0);
+}
+
+
+bool Foam::couplingClient::iterate()
+{
+    if (!fixedPoint_)
+    {
+        return false;
+    }
+    if (fixedPoint_->improve(fluid_))
+    {
+        client_.iterate_step(fixedPoint_->guess(), fixedPoint_->residual());
+        return true;
+    }
+    if (fixedPoint_->converged())
+    {
+        return false;
+    }
+
+    OStringStream what;
+    what<< "fluid and particles did not agree in " << fixedPoint_->passes()
+        << " passes of step " << label(step_.number) << " at " << step_.time
+        << " s: residual " << fixedPoint_->residual() << ", tolerance "
+        << client_.welcome().iteration.tolerance;
+
+    if (client_.welcome().iteration.must_converge)
+    {
+        FatalErrorInFunction
+            << what.str().c_str() << "; allow more passes, a larger tolerance"
+            << " or a shorter time step" << exit(FatalError);
+    }
+    Info<< "Note: " << what.str().c_str() << endl;
+
+    return false;
 }
 
 

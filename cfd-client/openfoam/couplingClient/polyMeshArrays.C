@@ -11,6 +11,7 @@
 #include "polyMeshArrays.H"
 #include "cyclicPolyPatch.H"
 #include "emptyPolyPatch.H"
+#include "processorCyclicPolyPatch.H"
 #include "symmetryPlanePolyPatch.H"
 #include "symmetryPolyPatch.H"
 #include "wallPolyPatch.H"
@@ -46,6 +47,11 @@ Foam::polyMeshArrays::polyMeshArrays(const polyMesh& mesh)
         p.kind = kind(patch);
         p.start_face = patch.start();
         p.face_count = patch.size();
+        if (p.kind == PatchKind::processor)
+        {
+            p.neighbour_rank =
+                refCast<const processorPolyPatch>(patch).neighbProcNo();
+        }
         patches_.push_back(p);
     }
 }
@@ -70,6 +76,18 @@ PatchKind Foam::polyMeshArrays::kind(const polyPatch& patch)
     if (isA<cyclicPolyPatch>(patch))
     {
         return PatchKind::cyclic;
+    }
+    if (isA<processorCyclicPolyPatch>(patch))
+    {
+        FatalErrorInFunction
+            << "patch " << patch.name() << " joins two processors across a"
+            << " cyclic patch (particles need both sides of it on one); give"
+            << " system/decomposeParDict a constraint preservePatches"
+            << exit(FatalError);
+    }
+    if (isA<processorPolyPatch>(patch))
+    {
+        return PatchKind::processor;
     }
     if (patch.type() != polyPatch::typeName)
     {

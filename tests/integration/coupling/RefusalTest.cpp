@@ -58,7 +58,7 @@ TEST_P(Refusal, OfAWrongVersion)
     RawMessage hello = raw_hello();
     hello.envelope.set_protocol_major(2);
     peer.send(hello);
-    expect_refusal(peer, "the peer speaks protocol 2.0 and this side speaks 1.0");
+    expect_refusal(peer, "the peer speaks protocol 2.0 and this side speaks 1.");
 }
 
 TEST_P(Refusal, OfAMessageOutOfOrder)

@@ -128,7 +128,7 @@ Outcome run(std::string const& transport, TallCase const& settings, bool sparse)
     {
         std::string const name = std::filesystem::relative(entry.path(), server.result(""));
         // These tell wall times and bytes.
-        if (entry.is_regular_file() && name != "summary.json" && name != "exchange.csv") outcome.files[name] = contents(entry.path());
+        if (entry.is_regular_file() && name != "summary.json" && name != "coupling.csv" && name.find(".json") == std::string::npos) outcome.files[name] = contents(entry.path());
     }
     return outcome;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// A client in a process of its own, to be killed and stopped.
 ///
-/// Usage: scripted_client <endpoint> <time-out [s]> <steps>
+/// Usage: scripted_client <endpoint> <time-out [s]> <steps> [<folder of keys>]
 /// Exit codes: 0 orderly end, 1 a fault, whose text goes to standard error, 2 wrong usage.
 #include <cstdlib>
 #include <iostream>
@@ -14,7 +14,7 @@
 namespace
 {
 
-void run(std::string const& endpoint, double timeout, int steps)
+void run(std::string const& endpoint, double timeout, int steps, std::string const& keys)
 {
     using namespace gimdem;
     double constexpr dt = 1e-4;  // [s]
@@ -22,6 +22,7 @@ void run(std::string const& endpoint, double timeout, int steps)
     options.endpoint = endpoint;
     options.name = "scripted client";
     options.timeout = timeout;
+    options.keys = keys;
     coupling::Client client(options);
     client.connect(test::air);
     // 1024 cells: vector fields are large enough for shared memory.
@@ -42,10 +43,10 @@ void run(std::string const& endpoint, double timeout, int steps)
 
 int main(int argc, char** argv)
 {
-    if (argc != 4) return 2;
+    if (argc != 4 && argc != 5) return 2;
     try
     {
-        run(argv[1], std::atof(argv[2]), std::atoi(argv[3]));
+        run(argv[1], std::atof(argv[2]), std::atoi(argv[3]), argc == 5 ? argv[4] : "");
         return 0;
     }
     catch (std::exception const& error)

@@ -14,6 +14,11 @@ namespace gimdem::test
 namespace
 {
 
+/// Open MPI on this machine alone, as root or not, with more processes than cores.
+char const* const mpi =
+    "mpirun --allow-run-as-root --oversubscribe --bind-to none --mca plm isolated --mca btl self,vader "
+    "--mca btl_vader_single_copy_mechanism none -np ";
+
 std::string text_of(Vector const& v)
 {
     std::ostringstream out;
@@ -113,7 +118,7 @@ Vector cell_centre(FluidCase const& fluid, std::size_t c)
     return x;
 }
 
-FluidProcess::FluidProcess(FluidCase const& fluid)
+FluidProcess::FluidProcess(FluidCase const& fluid) : ranks_(static_cast<int>(fluid.cuts[0] * fluid.cuts[1] * fluid.cuts[2]))
 {
     std::string name = (std::filesystem::temp_directory_path() / "gimdem-fluid-XXXXXX").string();
     if (!::mkdtemp(name.data())) throw std::runtime_error("no folder for temporary files");
@@ -123,7 +128,8 @@ FluidProcess::FluidProcess(FluidCase const& fluid)
 
     std::ostringstream control;
     control << "application gimdemFoam; startFrom startTime; startTime 0; stopAt endTime; endTime 1e9; deltaT "
-            << fluid.time_step << "; writeControl timeStep; writeInterval 1000000; writePrecision 12;\n";
+            << fluid.time_step << "; writeControl timeStep; writeInterval 1000000; writePrecision 12;\n"
+            << fluid.control;
     std::ostringstream air;
     air << "rho " << fluid.density << "; mu " << fluid.viscosity << ";\n";
 
@@ -141,6 +147,11 @@ FluidProcess::FluidProcess(FluidCase const& fluid)
               boundary(fluid, "type fixedFluxPressure; value uniform 0;", "type fixedValue; value uniform 0;",
                        "type fixedFluxPressure; value uniform 0;"));
     run("blockMesh");
+    if (ranks_ == 1) return;
+    write("system/decomposeParDict", "dictionary",
+          "numberOfSubdomains " + std::to_string(ranks_) + "; method simple; simpleCoeffs { n " +
+              text_of({fluid.cuts[0], fluid.cuts[1], fluid.cuts[2]}) + "; delta 0.001; }\n");
+    run("decomposePar");
 }
 
 FluidProcess::~FluidProcess()
@@ -177,8 +188,9 @@ void FluidProcess::start(std::string const& arguments)
 {
     pid_ = ::fork();
     if (pid_ != 0) return;
-    std::string const command = "exec " GIMDEM_FOAM " -case " + folder_.string() + " " + arguments + " > " +
-                                (folder_ / "log").string() + " 2>&1";
+    std::string client = GIMDEM_FOAM " -case " + folder_.string() + " " + arguments;
+    if (ranks_ > 1) client = mpi + std::to_string(ranks_) + " " + client + " -parallel";
+    std::string const command = "exec " + client + " > " + (folder_ / "log").string() + " 2>&1";
     ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     ::_exit(127);
 }

@@ -36,7 +36,11 @@ struct FluidCase
     int correctors = 1;
     std::string convection = "limitedLinearV 1";
     std::string gradient = "Gauss linear";
-    double tolerance = 1e-10;                ///< of the pressure, relative
+    double tolerance = 1e-10;  ///< of the pressure, relative
+    std::string control;       ///< more of controlDict
+    int fluid_steps = 1;       ///< of a coupling step
+    bool overlapped = false;
+    Vector cuts = {1, 1, 1};                 ///< parts along x, y and z, each solved by a process of its own
     std::function<Vector(Vector)> velocity;  ///< at t = 0, of a cell's centre; empty: superficial
 };
 
@@ -47,7 +51,7 @@ Vector cell_centre(FluidCase const& fluid, std::size_t c);
 class FluidProcess
 {
 public:
-    /// Writes the dictionaries and runs blockMesh.
+    /// Writes the dictionaries and runs blockMesh; decomposePar too for several ranks.
     explicit FluidProcess(FluidCase const& fluid);
     ~FluidProcess();
     FluidProcess(FluidProcess const&) = delete;
@@ -64,6 +68,7 @@ public:
     /// Waits for its end and returns the exit code.
     int wait();
 
+    /// Of gimdemFoam, or of mpirun.
     pid_t pid() const { return pid_; }
     std::string log() const;
 
@@ -71,6 +76,7 @@ private:
     void write(std::string const& name, std::string const& kind, std::string const& text) const;
 
     std::filesystem::path folder_;
+    int ranks_;
     pid_t pid_ = -1;
 };
 

@@ -15,6 +15,11 @@
 /// serial: begin_step sends the fluid at t and returns the solid at t + dt. overlapped: it returns the solid at t at
 /// once and both solvers compute; end_step takes the solid at t + dt. Each call throws CouplingError on a fault; an
 /// illegal order of calls is Fault::user and names the state. Not thread-safe: one Client, one thread.
+/// iterated: as serial, and iterate_step() between the two repeats the step; FixedPoint.hpp shows the loop.
+///
+/// Several processes (MPI): each has a Client, which sends its part of the mesh and of the fields and gets its part of
+/// the solid. Rank 0 connects first; its Welcome tells the endpoints of the others. All make the same calls with the
+/// same steps; what ends one of them ends all. The monitors of rank 0 count.
 #pragma once
 
 #include <memory>
@@ -31,7 +36,7 @@ namespace gimdem::coupling
 
 struct ClientOptions
 {
-    std::string endpoint;              ///< "ipc:///path/socket" or "tcp://127.0.0.1:port"
+    std::string endpoint;              ///< "ipc:///path/socket" or "tcp://127.0.0.1:port", with keys "tcp://host:port"
     std::string name;                  ///< who we are, for messages and logs
     double timeout = 30;               ///< a peer silent for this long is dead [s]
     double connect_time = 60;          ///< how long connect() waits for a server to appear [s]
@@ -40,6 +45,9 @@ struct ClientOptions
     std::vector<std::string> wants;  ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
     bool shared_memory = true;       ///< over ipc, let large fields travel through shared memory if the server can
     Encodings encodings{true, true, true};  ///< those that the server may choose
+    bool iterates = false;           ///< the program calls iterate_step() if the schedule is iterated
+    Rank rank;                       ///< of a fluid that several processes solve together
+    std::string keys;                ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
 };
 
 /// The server's answer to Hello.
@@ -48,9 +56,12 @@ struct Welcome
     std::string server;  ///< name and version of the server
     std::string title;   ///< of the case
     Schedule schedule = Schedule::serial;
-    double end_time = 0;             ///< the run ends here [s]
-    std::vector<std::string> needs;  ///< fluid fields that this scene needs, names of namespace field
-    Encodings encodings = {};        ///< in force
+    double end_time = 0;                      ///< the run ends here [s]
+    std::vector<std::string> needs;           ///< fluid fields that this scene needs, names of namespace field
+    int fluid_steps = 1;                      ///< equal fluid steps that a coupling step should have
+    Iteration iteration;                      ///< of schedule iterated
+    std::vector<std::string> rank_endpoints;  ///< to rank 0 of several: where ranks 1, 2, ... connect
+    Encodings encodings = {};                 ///< in force
     bool needs_field(std::string const& name) const;
 };
 
@@ -82,8 +93,14 @@ public:
     SolidFields const& begin_step(Step const& step, FluidFields const& fluid,
                                   std::vector<Monitor> const& monitors = {});
 
-    /// @pre begin_step() has been called. timings tells where this fluid step spent its time.
-    void end_step(Timings const& timings = {});
+    /// Schedule iterated: the server goes back to the beginning of the step and repeats it in this estimate of the
+    /// fluid at its end. @pre begin_step() or iterate_step() has been called. Returns the solid that the fluid step,
+    /// from its own state at t, must use. `residual`: relative, of the pass that is given up, for logs.
+    SolidFields const& iterate_step(FluidFields const& estimate, double residual = 0);
+
+    /// @pre begin_step() has been called. timings tells where this fluid step spent its time, residual how well an
+    /// iterated one converged.
+    void end_step(Timings const& timings = {}, double residual = 0);
 
     /// Why the server asks for an orderly end (Ctrl-C there), if it does: write your fields and call finish().
     std::optional<std::string> const& stop_request() const;

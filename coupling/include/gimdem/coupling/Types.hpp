@@ -15,13 +15,37 @@ namespace gimdem::coupling
 
 /// Version of the protocol, docs/protocol.md: peers must agree on the major number.
 inline constexpr int protocol_major = 1;
-inline constexpr int protocol_minor = 0;
+inline constexpr int protocol_minor = 1;
 
 /// Which time level each solver sees within one coupling step, docs/theory.md section C.
 enum class Schedule
 {
-    serial,     ///< the fluid step t -> t + dt uses the particles at t + dt: one solver waits for the other
-    overlapped  ///< both solvers compute t -> t + dt at the same time, each on what the other sent last
+    serial,      ///< the fluid step t -> t + dt uses the particles at t + dt: one solver waits for the other
+    overlapped,  ///< both solvers compute t -> t + dt at the same time, each on what the other sent last
+    iterated     ///< serial, and the step is repeated in the fluid at t + dt until that stands still
+};
+
+/// As case files write it.
+inline char const* name_of(Schedule schedule)
+{
+    switch (schedule)
+    {
+        case Schedule::overlapped:
+            return "overlapped";
+        case Schedule::iterated:
+            return "iterated";
+        default:
+            return "serial";
+    }
+}
+
+/// How the schedule `iterated` repeats a step, docs/theory.md (C.15)-(C.18).
+struct Iteration
+{
+    double tolerance = 1e-4;     ///< relative residual at which a step is accepted [1]
+    int max_passes = 20;         ///< of a step; 1 is the schedule serial
+    double relaxation = 0.5;     ///< factor of the first pass [1]
+    bool must_converge = false;  ///< else a step that did not is accepted as it is
 };
 
 /// What a boundary patch of the mesh is to the particles.
@@ -42,7 +66,19 @@ struct Patch
     PatchKind kind = PatchKind::wall;
     std::int32_t start_face = 0;  ///< first face of the patch, >= number of internal faces
     std::int32_t face_count = 0;
+    std::int32_t neighbour_rank = 0;  ///< of a processor patch: the rank that has the cells behind it
 };
+
+/// Which of the processes that solve the fluid together (MPI) this is; the default is one process alone.
+struct Rank
+{
+    std::int32_t number = 0;  ///< 0, 1, ..., count - 1
+    std::int32_t count = 1;   ///< at most max_ranks
+    std::uint64_t run = 0;    ///< where count > 1: a random number, not 0, that rank 0 tells the others
+};
+
+/// Each rank costs the server a thread and some fifteen open files, of the 1024 that systems usually allow.
+inline constexpr std::int32_t max_ranks = 32;
 
 /// A polyhedral mesh by reference, in the owner/neighbour addressing of OpenFOAM.
 ///

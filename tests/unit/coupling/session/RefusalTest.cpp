@@ -91,7 +91,7 @@ TEST(ServerRefuses, AClientOfAnotherVersion)
     hello.envelope.set_protocol_major(2);
     hello.envelope.set_protocol_minor(7);
     client.peer.send(hello);
-    client.expect_refusal("version", {"the peer speaks protocol 2.7 and this side speaks 1.1", "in state listening"});
+    client.expect_refusal("version", {"the peer speaks protocol 2.7 and this side speaks 1.", "in state listening"});
 }
 
 TEST(ServerRefuses, RubbishInsteadOfHello)

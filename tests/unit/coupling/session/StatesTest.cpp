@@ -45,7 +45,13 @@ std::vector<Path> const client_paths{
       Event::begin_serial_step, Event::solid_state}},
     {State::overlapping,
      {Event::connect, Event::welcome, Event::send_mesh, Event::mesh_accepted, Event::solid_state,
-      Event::begin_overlapped_step}}};
+      Event::begin_overlapped_step}},
+    {State::awaiting,
+     {Event::connect, Event::welcome, Event::send_mesh, Event::mesh_accepted, Event::solid_state,
+      Event::begin_iterated_step}},
+    {State::iterating,
+     {Event::connect, Event::welcome, Event::send_mesh, Event::mesh_accepted, Event::solid_state,
+      Event::begin_iterated_step, Event::solid_state, Event::iterate_step, Event::solid_state}}};
 
 std::vector<Path> const server_paths{
     {State::listening, {}},
@@ -58,12 +64,11 @@ std::vector<Path> const server_paths{
 /// The rules once more, from docs/protocol.md: the only messages that a state takes, and where they lead.
 using Allowed = std::map<std::pair<State, std::string>, State>;
 
-Allowed const client_allows{{{State::greeting, "Welcome"}, State::welcomed},
-                            {{State::meshing, "MeshAccepted"}, State::accepted},
-                            {{State::accepted, "SolidState"}, State::ready},
-                            {{State::waiting, "SolidState"}, State::solving},
-                            {{State::waiting, "FluidWanted"}, State::waiting},
-                            {{State::overlapping, "SolidState"}, State::ready}};
+Allowed const client_allows{
+    {{State::greeting, "Welcome"}, State::welcomed},    {{State::meshing, "MeshAccepted"}, State::accepted},
+    {{State::accepted, "SolidState"}, State::ready},    {{State::waiting, "SolidState"}, State::solving},
+    {{State::waiting, "FluidWanted"}, State::waiting},
+    {{State::overlapping, "SolidState"}, State::ready}, {{State::awaiting, "SolidState"}, State::iterating}};
 
 Allowed const server_allows{
     {{State::listening, "Hello"}, State::welcomed},   {{State::welcomed, "Mesh"}, State::meshing},
@@ -259,10 +264,12 @@ std::map<State, std::vector<Event>> const client_calls{
     {State::welcomed, {Event::send_mesh, Event::finish}},
     {State::meshing, {}},
     {State::accepted, {}},
-    {State::ready, {Event::begin_serial_step, Event::begin_overlapped_step, Event::finish}},
+    {State::ready, {Event::begin_serial_step, Event::begin_overlapped_step, Event::begin_iterated_step, Event::finish}},
     {State::waiting, {}},
     {State::solving, {Event::end_step, Event::finish}},
     {State::overlapping, {Event::end_step, Event::finish}},
+    {State::awaiting, {}},
+    {State::iterating, {Event::iterate_step, Event::end_step, Event::finish}},
     {State::finished, {Event::finish}},
     {State::failed, {}}};
 
@@ -325,6 +332,7 @@ std::vector<std::string> rows_of(Span<Rule const> rules)
         std::string event = name_of(rule.event);
         if (rule.event == Event::begin_serial_step) event += ", serial";
         if (rule.event == Event::begin_overlapped_step) event += ", overlapped";
+        if (rule.event == Event::begin_iterated_step) event += ", iterated";
         rows.push_back("| " + name_of(rule.from) + " | " + event + " | " + name_of(rule.to) + " |");
     }
     return rows;

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Peers and strangers that send as much as they can: memory stays flat, and the session tells what it thinks of it.
+#include <gtest/gtest.h>
+
+#include <future>
+#include <string>
+#include <vector>
+
+#include "Faults.hpp"
+#include "Figure.hpp"
+#include "Pair.hpp"
+#include "ProcessMeters.hpp"
+#include "RawMessages.hpp"
+#include "session/Inbox.hpp"
+
+namespace gimdem::test
+{
+namespace
+{
+
+using namespace coupling;
+
+/// The buffers of the system (4 MiB each way) and of ZeroMQ, of both ends, which are in this process [byte].
+double constexpr flat = 32 << 20;
+
+/// A server in the middle of a run, whose program is at work.
+struct BusyServer
+{
+    explicit BusyServer(std::string const& endpoint)
+        : server(server_options(endpoint)), peer(RawPeer::client(server.endpoint()))
+    {
+        auto client_side = in_background(
+            [&]
+            {
+                peer.send(raw_hello());
+                peer.receive();
+                peer.send(raw_mesh(small_mesh()));
+                peer.receive();
+                peer.receive();
+                peer.send(raw_fluid(1, 0, 1e-3, 24, {{"velocity", 3}, {"pressure_gradient", 3}}));
+            });
+        server.wait_for_client(server_terms());
+        server.receive_mesh();
+        server.accept_mesh(SolidArrays(24, 2).view());
+        server.receive_fluid();
+        client_side.get();
+    }
+
+    Server server;
+    RawPeer peer;
+};
+
+class Flood : public testing::TestWithParam<char const*>
+{
+protected:
+    static std::string endpoint()
+    {
+        return GetParam() == std::string("ipc") ? unused_ipc_endpoint() : any_tcp_endpoint();
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Over, Flood, testing::Values("ipc", "tcp"),
+                         [](auto const& transport) { return std::string(transport.param); });
+
+TEST_P(Flood, OfAStrangerWhoReadsNoAnswerLeavesMemoryFlat)
+{
+    BusyServer busy(endpoint());
+    RawPeer stranger = RawPeer::client(busy.server.endpoint());
+    RawPeer second = RawPeer::client(busy.server.endpoint());
+    second.send(raw_hello());
+    EXPECT_THAT(second.receive_error(), testing::HasSubstr("busy"));
+    double const before = own_memory();
+
+    // Each is answered by 200 bytes, 60 MB in all.
+    for (int n = 0; n < 300'000; ++n)
+        stranger.send_frames({"x"});
+    second.send(raw_hello());
+    EXPECT_THAT(second.receive_error(), testing::HasSubstr("busy"));  // the server has come so far
+
+    double const growth = own_memory() - before;
+    figure("memory_growth_by_flood_of_stranger", growth, "byte");
+    EXPECT_LT(growth, flat);
+    busy.server.send_solid(SolidArrays(24, 5).view(), {});  // and the session goes on
+    ASSERT_TRUE(busy.peer.receive());
+}
+
+TEST_P(Flood, OfThePeerLeavesMemoryFlatAndEndsTheSession)
+{
+    BusyServer busy(endpoint());
+    double const before = own_memory();
+
+    // 2 GB in all: what a mesh of a million cells would send, to a session of 24.
+    RawMessage const fluid = raw_fluid(2, 1e-3, 1e-3, 350'000, {{"velocity", 3}});
+    for (int n = 0; n < 250; ++n)
+        busy.peer.send(fluid);
+    busy.peer.send(raw_goodbye());
+
+    EXPECT_FAULT(busy.server.send_solid(SolidArrays(24, 5).view(), {}), Fault::protocol,
+                 "no message of this session has more than");
+    double const growth = own_memory() - before;
+    figure("memory_growth_by_flood_of_peer", growth, "byte");
+    // What ZeroMQ holds of one peer, both ends: 2 x 16 messages of 8.4 MB, were they not taken at once.
+    EXPECT_LT(growth, 1 << 30);
+}
+
+TEST(FloodOfLetters, WithArraysIsCut)
+{
+    session::Inbox inbox;
+    for (int n = 0; n < 10; ++n)
+    {
+        message::Message message;
+        message.envelope.mutable_solid_state();
+        message.arrays.emplace_back(8);
+        inbox.put({std::move(message), std::nullopt, transport::Clock::now()});
+    }
+    int kept = 0;
+    while (inbox.wait(transport::Clock::now()).letter)
+        ++kept;
+    EXPECT_EQ(kept, 2);
+}
+
+}  // namespace
+}  // namespace gimdem::test
