@@ -58,7 +58,7 @@ void check_array(v1::ArrayHeader const& header, transport::Frame& frame)
     std::size_t const row_bytes = size * header.components();
     bool const fits = header.count() <= transport::max_frame_bytes / row_bytes;
     if (fits && header.compression() != v1::COMPRESSION_NONE && !header.shared())
-        return;  // its bytes are checked where the number of cells is known
+        return;                                            // its bytes are checked where the number of cells is known
     if (fits && header.shared() && frame.empty()) return;  // its place is checked where the memory is known
     if (!fits || header.shared() || header.count() * row_bytes != frame.size())
         refuse(who() + " has " + std::to_string(frame.size()) + " bytes, but its header promises " +

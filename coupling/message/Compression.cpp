@@ -28,9 +28,9 @@ transport::Frame compress(transport::Frame const& numbers, std::size_t number_by
     std::vector<unsigned char> shuffled(numbers.size()), packed(numbers.size() - 1);
     shuffle_bytes(static_cast<unsigned char const*>(numbers.data()), numbers.size() / number_bytes, number_bytes,
                   shuffled.data());
-    int const bytes = LZ4_compress_default(reinterpret_cast<char const*>(shuffled.data()),
-                                           reinterpret_cast<char*>(packed.data()), static_cast<int>(shuffled.size()),
-                                           static_cast<int>(packed.size()));
+    int const bytes =
+        LZ4_compress_default(reinterpret_cast<char const*>(shuffled.data()), reinterpret_cast<char*>(packed.data()),
+                             static_cast<int>(shuffled.size()), static_cast<int>(packed.size()));
     return bytes > 0 ? transport::Frame(packed.data(), static_cast<std::size_t>(bytes)) : transport::Frame();
 }
 
@@ -45,8 +45,9 @@ void decompress(v1::ArrayHeader const& header, transport::Frame const& frame, st
                std::to_string(LZ4_MAX_INPUT_SIZE / size) + ")");
     std::vector<unsigned char> shuffled(count * size);
     to.resize(count * size);
-    int const bytes = LZ4_decompress_safe(static_cast<char const*>(frame.data()), reinterpret_cast<char*>(shuffled.data()),
-                                          static_cast<int>(frame.size()), static_cast<int>(shuffled.size()));
+    int const bytes =
+        LZ4_decompress_safe(static_cast<char const*>(frame.data()), reinterpret_cast<char*>(shuffled.data()),
+                            static_cast<int>(frame.size()), static_cast<int>(shuffled.size()));
     if (bytes < 0 || static_cast<std::size_t>(bytes) != shuffled.size())
         refuse(who + " cannot be decompressed to the " + std::to_string(shuffled.size()) +
                " bytes that its header promises (a truncated or corrupted frame)");

@@ -17,8 +17,8 @@ namespace
 
 struct Field
 {
-    std::vector<double> values;          ///< of all cells
-    CellRuns filled;                     ///< the cells that may hold anything else than the empty value
+    std::vector<double> values;           ///< of all cells
+    CellRuns filled;                      ///< the cells that may hold anything else than the empty value
     std::vector<unsigned char> unpacked;  ///< bytes of a compressed frame
 };
 
@@ -100,10 +100,9 @@ Span<double const> FieldStore::receive(Message const& message, int k, std::size_
         decompress(header, message.arrays[static_cast<std::size_t>(k)], field.unpacked);
         bytes = field.unpacked.data();
     }
-    bool const finite =
-        header.type() == v1::ELEMENT_TYPE_F32
-            ? scatter(static_cast<float const*>(bytes), cells, components, field.values.data())
-            : scatter(static_cast<double const*>(bytes), cells, components, field.values.data());
+    bool const finite = header.type() == v1::ELEMENT_TYPE_F32
+                            ? scatter(static_cast<float const*>(bytes), cells, components, field.values.data())
+                            : scatter(static_cast<double const*>(bytes), cells, components, field.values.data());
     if (!finite) refuse_not_finite(message, header.name(), cells, components, field.values);
     return field.values;
 }

@@ -247,7 +247,9 @@ void look_through(Message& message, std::size_t count)
         bool const is_real = message.envelope.arrays(static_cast<int>(k)).type() == v1::ELEMENT_TYPE_F64;
         bool const is_dense = message.envelope.arrays(static_cast<int>(k)).dense();
         // What is not used in place is looked at while it is copied.
-        if (is_real && is_dense && !all_finite({static_cast<double const*>(frame.data()), frame.size() / sizeof(double)})) return;
+        if (is_real && is_dense &&
+            !all_finite({static_cast<double const*>(frame.data()), frame.size() / sizeof(double)}))
+            return;
     }
 }
 

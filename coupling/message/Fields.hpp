@@ -49,7 +49,7 @@ FieldChoice<SolidFields> choose_solid_fields(std::vector<std::string> const& nam
 /// How the fields of a message are to travel.
 struct FieldLayout
 {
-    Encodings encodings;                             ///< in force
+    Encodings encodings;                               ///< in force
     std::vector<NeededCells> const* needed = nullptr;  ///< of a fluid, where not all cells are
     CellRuns const* solid = nullptr;                   ///< of a solid, where not all cells are
 };

@@ -21,9 +21,9 @@ using Kind = v1::Envelope::KindCase;
 /// Numbers that are still to be copied into their frame.
 struct Unfilled
 {
-    std::size_t array;  ///< position among the arrays
-    Span<double const> values;  ///< of all cells
-    bool is_shared;             ///< the frame lies in memory that the peer reads
+    std::size_t array;                             ///< position among the arrays
+    Span<double const> values;                     ///< of all cells
+    bool is_shared;                                ///< the frame lies in memory that the peer reads
     std::optional<CellRuns> cells = std::nullopt;  ///< the cells whose rows travel; absent: all
     bool compress = false;                         ///< the frame is to be compressed
 };

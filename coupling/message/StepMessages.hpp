@@ -30,9 +30,9 @@ struct Terms
     FieldChoice<FluidFields> fluid;
     FieldChoice<SolidFields> solid;
     std::size_t cell_count = 0;
-    transport::SendMemory memory;  ///< of the fields that we send
-    FieldStore store;              ///< of the fields that we receive
-    Encodings encodings;           ///< in force
+    transport::SendMemory memory;     ///< of the fields that we send
+    FieldStore store;                 ///< of the fields that we receive
+    Encodings encodings;              ///< in force
     std::vector<NeededCells> needed;  ///< of the next fluid, as the server told last
 };
 

@@ -102,15 +102,14 @@ void Client::Impl::connect(FluidProperties const& properties)
     session.open(transport::Socket::connect(options.endpoint, keys));
     session.advance(Event::connect);
     shared.want(options.shared_memory && session.is_ipc());
-    message::Message hello = message::pack(
-        message::Hello{.name = options.name,
-                       .fluid = properties,
-                       .wants = options.wants,
-                       .schedule = options.schedule,
-                       .timeout = options.timeout,
-                       .iterates = options.iterates,
-                       .rank = options.rank,
-                       .encodings = options.encodings});
+    message::Message hello = message::pack(message::Hello{.name = options.name,
+                                                          .fluid = properties,
+                                                          .wants = options.wants,
+                                                          .schedule = options.schedule,
+                                                          .timeout = options.timeout,
+                                                          .iterates = options.iterates,
+                                                          .rank = options.rank,
+                                                          .encodings = options.encodings});
     shared.offer(hello);
     record.stamp(hello);
     Time const hello_sent = Clock::now();

@@ -25,8 +25,8 @@ struct SendMemory::Ring
     /// The next free place in the slot, or null.
     unsigned char* place(std::size_t bytes, bool any_size)
     {
-        if (!segment || segment->memory().bytes() < mailbox_bytes ||
-            (bytes < least_shared_bytes && !any_size) || bytes > slot_bytes() - used)
+        if (!segment || segment->memory().bytes() < mailbox_bytes || (bytes < least_shared_bytes && !any_size) ||
+            bytes > slot_bytes() - used)
             return nullptr;
         unsigned char* const begin = segment->memory().data() + slot * slot_bytes() + used;
         used = std::min(slot_bytes(), used + aligned_bytes(bytes));

@@ -33,7 +33,12 @@ void CouplingLog::arrived(coupling::FluidState const& fluid, double waited, doub
 {
     auto const now = std::chrono::steady_clock::now();
     if (running_) close(fluid, now, waited, bytes);
-    running_ = {.step = fluid.step, .began = now, .client_waiting = fluid.waiting, .exchange = fluid.exchange, .bytes = bytes, .lag = {}};
+    running_ = {.step = fluid.step,
+                .began = now,
+                .client_waiting = fluid.waiting,
+                .exchange = fluid.exchange,
+                .bytes = bytes,
+                .lag = {}};
 }
 
 void CouplingLog::answered(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine)
@@ -64,8 +69,9 @@ void CouplingLog::close(coupling::FluidState const& next, Time now, double serve
     lag_worst_.solid_fraction = std::max(lag_worst_.solid_fraction, running_->lag.solid_fraction);
     series_.append(std::array{static_cast<double>(running_->step.number), running_->step.time, dt,
                               static_cast<double>(running_->dem_steps), times.dem, times.cfd, times.wall,
-                              server_waiting, client_waiting, exchange, bytes - running_->bytes, overlap_efficiency(times), running_->lag.force,
-                              running_->lag.solid_fraction, static_cast<double>(running_->passes), next.residual});
+                              server_waiting, client_waiting, exchange, bytes - running_->bytes,
+                              overlap_efficiency(times), running_->lag.force, running_->lag.solid_fraction,
+                              static_cast<double>(running_->passes), next.residual});
     ++steps_;
     passes_ += running_->passes;
     most_passes_ = std::max(most_passes_, running_->passes);

@@ -56,8 +56,9 @@ private:
     output::OverlapMeter overlap_;
     LagMeter lag_;
     std::optional<Running> running_;
-    double duration_ = 0, server_waiting_ = 0, client_waiting_ = 0, exchange_ = 0;  ///< sums of the steps that are over [s]
-    LagError lag_sum_, lag_worst_;                                   ///< sums: times dt [s]
+    double duration_ = 0, server_waiting_ = 0, client_waiting_ = 0,
+           exchange_ = 0;           ///< sums of the steps that are over [s]
+    LagError lag_sum_, lag_worst_;  ///< sums: times dt [s]
     std::int64_t steps_ = 0, whole_fluids_ = 0, passes_ = 0, most_passes_ = 0;
     double residual_worst_ = 0;
 };

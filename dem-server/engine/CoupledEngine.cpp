@@ -125,7 +125,8 @@ StepReport CoupledEngine::map_initial_state()
     // The drag as it is now, as if it had acted for a second.
     system_.begin_coupling_step(&on_particles_);
     system_.take_impulses_of_one_second();
-    map_particles(1, [&] { return fluid; }, report);
+    map_particles(
+        1, [&] { return fluid; }, report);
     look_ahead();
     return report;
 }

@@ -24,7 +24,8 @@ public:
     /// Cells whose pressure and gradients are read whatever the particles do, for monitors.
     void monitor(std::span<std::int32_t const> cells);
 
-    /// Chooses the cells of the next step, from the cell of each particle and where has_drag, shape=(n_cells,), is not 0.
+    /// Chooses the cells of the next step, from the cell of each particle and where has_drag, shape=(n_cells,), is not
+    /// 0.
     void look_ahead(std::span<std::int32_t const> cell_of, std::span<std::uint8_t const> has_drag);
 
     /// Were all these cells chosen for what particles read?

@@ -79,8 +79,9 @@ coupling::SolidFields Scene::solid() const
 coupling::StepCells Scene::cells() const
 {
     namespace field = coupling::field;
-    auto const layers = [&](int count)
-    { return coupling::CellRuns{{0, std::min(count, size_[2]) * size_[0] * size_[1]}}; };
+    auto const layers = [&](int count) {
+        return coupling::CellRuns{{0, std::min(count, size_[2]) * size_[0] * size_[1]}};
+    };
     coupling::CellRuns const plane{{layers_ / 2 * size_[0] * size_[1], size_[0] * size_[1]}};
     return {layers(layers_),
             {{{field::velocity}, layers(layers_ + 2)},

@@ -3,8 +3,8 @@
 ///
 /// All ways are open at once and take turns, a few round trips each; medians are told. Rows to standard output:
 /// way, transport, bytes, median and 10th and 90th percentile of gimdem [us], the same of ZeroMQ alone.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -26,8 +26,8 @@ struct Options
     std::array<int, 3> cells{33, 3, 181};  ///< grid A of cases/wachem-bed
     double occupied = 0.24;                ///< bed height of 0.12 m in a box of 0.5 m
     int rounds = 40;
-    int turn = 5;       ///< round trips of a way in a round
-    double pause = 0;   ///< between round trips [ms]: solvers compute then
+    int turn = 5;      ///< round trips of a way in a round
+    double pause = 0;  ///< between round trips [ms]: solvers compute then
 };
 
 std::vector<Way> all_ways()
@@ -67,7 +67,8 @@ void take(Exchange& exchange, Options const& options, std::vector<double>& times
         auto const start = Clock::now();
         exchange.exchange();
         double const us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-        if (k > 0 || options.turn == 1) times.push_back(us);  // the first after a pause finds everything asleep and cold
+        if (k > 0 || options.turn == 1)
+            times.push_back(us);  // the first after a pause finds everything asleep and cold
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// The real server with a client that sends the cells that are needed, and with one that sends all: the same to the bit,
-/// on the wire, in the particles, and in every file.
+/// The real server with a client that sends the cells that are needed, and with one that sends all: the same to the
+/// bit, on the wire, in the particles, and in every file.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,8 +28,8 @@ Mesh tall_mesh()
     return BoxMesh::make(size, {0.06, 0.06, 0.4});
 }
 
-/// Beads at the bottom of a tall box, blown upward: they cross a cell or more in a coupling step, so that the cells that
-/// the server asked for are not always enough.
+/// Beads at the bottom of a tall box, blown upward: they cross a cell or more in a coupling step, so that the cells
+/// that the server asked for are not always enough.
 class TallCase : public SmallCase
 {
 public:
@@ -128,7 +128,9 @@ Outcome run(std::string const& transport, TallCase const& settings, bool sparse)
     {
         std::string const name = std::filesystem::relative(entry.path(), server.result(""));
         // These tell wall times and bytes.
-        if (entry.is_regular_file() && name != "summary.json" && name != "coupling.csv" && name.find(".json") == std::string::npos) outcome.files[name] = contents(entry.path());
+        if (entry.is_regular_file() && name != "summary.json" && name != "coupling.csv" &&
+            name.find(".json") == std::string::npos)
+            outcome.files[name] = contents(entry.path());
     }
     return outcome;
 }
@@ -176,8 +178,7 @@ TEST_P(Sparse, RunIsTheRunWithAllCells)
 INSTANTIATE_TEST_SUITE_P(Ways, Sparse,
                          testing::Values(Way{"ipc", "serial", false}, Way{"ipc", "overlapped", false},
                                          Way{"tcp", "serial", true}, Way{"ipc", "overlapped", true}),
-                         [](auto const& way)
-                         {
+                         [](auto const& way) {
                              return way.param.transport + "_" + way.param.schedule +
                                     (way.param.with_inlet ? "_with_inlet" : "");
                          });

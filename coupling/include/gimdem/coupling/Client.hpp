@@ -45,9 +45,9 @@ struct ClientOptions
     std::vector<std::string> wants;  ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
     bool shared_memory = true;       ///< over ipc, let large fields travel through shared memory if the server can
     Encodings encodings{true, true, true};  ///< those that the server may choose
-    bool iterates = false;           ///< the program calls iterate_step() if the schedule is iterated
-    Rank rank;                       ///< of a fluid that several processes solve together
-    std::string keys;                ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
+    bool iterates = false;                  ///< the program calls iterate_step() if the schedule is iterated
+    Rank rank;                              ///< of a fluid that several processes solve together
+    std::string keys;  ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
 };
 
 /// The server's answer to Hello.
@@ -88,8 +88,8 @@ public:
     void send_mesh(MeshView const& mesh);
 
     /// @pre send_mesh() or end_step() has been called. Returns the solid that the fluid step must use; its spans live
-    /// until the next begin_step or end_step. Sizes of the fields are checked; a NaN or infinity in what is sent is Fault::user. Where the
-    /// server needs only some cells, only these are sent.
+    /// until the next begin_step or end_step. Sizes of the fields are checked; a NaN or infinity in what is sent is
+    /// Fault::user. Where the server needs only some cells, only these are sent.
     SolidFields const& begin_step(Step const& step, FluidFields const& fluid,
                                   std::vector<Monitor> const& monitors = {});
 

@@ -43,10 +43,10 @@ struct ServerOptions
     double step_time = 3600;    ///< longest wait for the next message of a live client [s]
     bool shared_memory = true;  ///< over ipc, let large fields travel through shared memory if the client can
     Encodings encodings{true, false, false};  ///< in force if the client can do them
-    std::string keys;           ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
+    std::string keys;  ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
     /// Told what a user may like to know, such as who was turned away; on another thread, and it must not block.
     std::function<void(std::string const&)> log;
-    double clock_origin = 0;    ///< when the run began, by clock_now() [s]; 0: now
+    double clock_origin = 0;  ///< when the run began, by clock_now() [s]; 0: now
 };
 
 /// What the case file fixes and the client is told.
@@ -85,7 +85,7 @@ struct FluidState
     double residual = 0;  ///< of the pass before, relative; schedule iterated
     ClientTimes previous_times = {};                  ///< when the client's previous step did what; step 0: not told
     std::optional<ClockOffset> clock = std::nullopt;  ///< by the client's latest estimate
-    bool is_complete = true;  ///< false: cells that the last StepCells left out hold 0
+    bool is_complete = true;                          ///< false: cells that the last StepCells left out hold 0
 };
 
 class Server
