@@ -167,8 +167,10 @@ class Run:
 
     def start_client(self, scratch: parallel.Scratch) -> subprocess.Popen[bytes]:
         assert self.client is not None
-        command = parallel.command(self.client.start_command(self.folder, self.endpoint.address, self.case.keys),
-                                   self.ranks)
+        alone = self.client.start_command(self.folder, self.endpoint.address, self.case.keys)
+        if self.restart and self.restart.fluid:
+            alone += ["-restart", self.restart.fluid.name]
+        command = parallel.command(alone, self.ranks)
         environment = {**self.client.environment(), "GIMDEM_CLIENT_LOG": str(self.folder / "log.client.jsonl")}
         with self.client_log.open("ab") as log:
             return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder,

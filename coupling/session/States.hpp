@@ -28,6 +28,7 @@ enum class State
     iterating,    ///< client, iterated: for its program to repeat or to end the fluid step
     computing,    ///< server: for its program to answer the fluid
     completing,   ///< server: for the cells of the fluid that were left out
+    saving,       ///< client: for CheckpointSaved; server: for its program to save a checkpoint
     finished,     ///< both: Goodbye was said
     failed        ///< both: a fault ended the session
 };
@@ -44,6 +45,7 @@ enum class Event
     begin_iterated_step,
     iterate_step,
     end_step,
+    save_checkpoint,
     finish,
     // calls of the server's program
     wait_for_client,
@@ -53,6 +55,7 @@ enum class Event
     receive_fluid,
     complete,
     send_solid,
+    checkpoint_is_saved,
     // messages
     hello,
     welcome,
@@ -61,7 +64,9 @@ enum class Event
     fluid_state,
     solid_state,
     fluid_wanted,
-    goodbye
+    goodbye,
+    checkpoint,
+    checkpoint_saved
 };
 
 /// In state `from`, `event` is legal and leads to state `to`. What no rule allows is refused.

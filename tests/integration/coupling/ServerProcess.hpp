@@ -32,8 +32,9 @@ struct SmallCase
     double timeout = patient;       ///< of the server [s]
     double connect_time = patient;  ///< of the server [s]
     std::string schedule = "serial";
-    std::string more;      ///< of the case file
-    std::string coupling;  ///< more of its [coupling]
+    std::string more;                    ///< of the case file
+    std::string coupling;                ///< more of its [coupling]
+    std::vector<std::string> arguments;  ///< of the server, beside the usual ones
 
     static constexpr int particle_count = 300;
     static constexpr double diameter = 2e-3;          ///< [m]
@@ -67,12 +68,12 @@ class ServerProcess
 public:
     /// given: an endpoint that it may choose the port of.
     explicit ServerProcess(std::string const& given, SmallCase const& settings = {})
-        : ServerProcess(given, settings.text())
+        : ServerProcess(given, settings.text(), settings.arguments)
     {
     }
     /// The same with a case file of this text.
-    ServerProcess(std::string const& given, std::string const& text)
-        : process_(command(folder_, given, text), folder_ / "output.txt")
+    ServerProcess(std::string const& given, std::string const& text, std::vector<std::string> const& arguments = {})
+        : process_(command(folder_, given, text, arguments), folder_ / "output.txt")
     {
     }
 
@@ -112,10 +113,13 @@ public:
 
 private:
     static std::vector<std::string> command(TemporaryFolder const& folder, std::string const& endpoint,
-                                            std::string const& text)
+                                            std::string const& text, std::vector<std::string> const& arguments)
     {
         std::ofstream(folder / "case.toml") << text;
-        return {GIMDEM_SERVER, "--case", folder / "case.toml", "--run", folder / "run", "--endpoint", endpoint};
+        std::vector<std::string> all{GIMDEM_SERVER, "--case", folder / "case.toml", "--run", folder / "run",
+                                     "--endpoint",  endpoint};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        return all;
     }
 
     /// The rest of the line after that text, and whether the line is complete.

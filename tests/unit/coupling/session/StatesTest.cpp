@@ -51,7 +51,10 @@ std::vector<Path> const client_paths{
       Event::begin_iterated_step}},
     {State::iterating,
      {Event::connect, Event::welcome, Event::send_mesh, Event::mesh_accepted, Event::solid_state,
-      Event::begin_iterated_step, Event::solid_state, Event::iterate_step, Event::solid_state}}};
+      Event::begin_iterated_step, Event::solid_state, Event::iterate_step, Event::solid_state}},
+    {State::saving,
+     {Event::connect, Event::welcome, Event::send_mesh, Event::mesh_accepted, Event::solid_state,
+      Event::save_checkpoint}}};
 
 std::vector<Path> const server_paths{
     {State::listening, {}},
@@ -59,7 +62,8 @@ std::vector<Path> const server_paths{
     {State::meshing, {Event::hello, Event::mesh}},
     {State::ready, {Event::hello, Event::mesh, Event::accept_mesh}},
     {State::computing, {Event::hello, Event::mesh, Event::accept_mesh, Event::fluid_state}},
-    {State::completing, {Event::hello, Event::mesh, Event::accept_mesh, Event::fluid_state, Event::complete}}};
+    {State::completing, {Event::hello, Event::mesh, Event::accept_mesh, Event::fluid_state, Event::complete}},
+    {State::saving, {Event::hello, Event::mesh, Event::accept_mesh, Event::checkpoint}}};
 
 /// The rules once more, from docs/protocol.md: the only messages that a state takes, and where they lead.
 using Allowed = std::map<std::pair<State, std::string>, State>;
@@ -68,14 +72,16 @@ Allowed const client_allows{
     {{State::greeting, "Welcome"}, State::welcomed},    {{State::meshing, "MeshAccepted"}, State::accepted},
     {{State::accepted, "SolidState"}, State::ready},    {{State::waiting, "SolidState"}, State::solving},
     {{State::waiting, "FluidWanted"}, State::waiting},
-    {{State::overlapping, "SolidState"}, State::ready}, {{State::awaiting, "SolidState"}, State::iterating}};
+    {{State::overlapping, "SolidState"}, State::ready},
+    {{State::awaiting, "SolidState"}, State::iterating},
+    {{State::saving, "CheckpointSaved"}, State::ready}};
 
 Allowed const server_allows{
     {{State::listening, "Hello"}, State::welcomed},   {{State::welcomed, "Mesh"}, State::meshing},
     {{State::completing, "FluidState"}, State::computing},
     {{State::ready, "FluidState"}, State::computing}, {{State::welcomed, "Goodbye"}, State::finished},
     {{State::meshing, "Goodbye"}, State::finished},   {{State::ready, "Goodbye"}, State::finished},
-    {{State::computing, "Goodbye"}, State::finished}};
+    {{State::computing, "Goodbye"}, State::finished}, {{State::ready, "Checkpoint"}, State::saving}};
 
 RawMessage raw_fluid_wanted()
 {
@@ -94,6 +100,8 @@ std::map<std::string, RawMessage> every_message()
             {"FluidState", test::raw_fluid(1, 0, 1e-3, mesh.cell_count)},
             {"SolidState", test::raw_solid(1, mesh.cell_count)},
             {"FluidWanted", raw_fluid_wanted()},
+            {"Checkpoint", test::raw_checkpoint()},
+            {"CheckpointSaved", test::raw_checkpoint_saved()},
             {"Goodbye", test::raw_goodbye()},
             {"Error", test::raw_error("raw trouble")}};
 }
@@ -264,10 +272,13 @@ std::map<State, std::vector<Event>> const client_calls{
     {State::welcomed, {Event::send_mesh, Event::finish}},
     {State::meshing, {}},
     {State::accepted, {}},
-    {State::ready, {Event::begin_serial_step, Event::begin_overlapped_step, Event::begin_iterated_step, Event::finish}},
+    {State::ready,
+     {Event::begin_serial_step, Event::begin_overlapped_step, Event::begin_iterated_step, Event::save_checkpoint,
+      Event::finish}},
     {State::waiting, {}},
     {State::solving, {Event::end_step, Event::finish}},
     {State::overlapping, {Event::end_step, Event::finish}},
+    {State::saving, {}},
     {State::awaiting, {}},
     {State::iterating, {Event::iterate_step, Event::end_step, Event::finish}},
     {State::finished, {Event::finish}},
@@ -279,6 +290,7 @@ std::map<State, std::vector<Event>> const server_calls{{State::listening, {Event
                                                        {State::ready, {Event::receive_fluid}},
                                                        {State::computing, {Event::complete, Event::send_solid}},
                                                        {State::completing, {}},
+                                                       {State::saving, {Event::checkpoint_is_saved}},
                                                        {State::finished, {Event::receive_fluid}},
                                                        {State::failed, {}}};
 
