@@ -12,6 +12,7 @@ import json
 import re
 import shutil
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -28,19 +29,24 @@ COLUMNS = ("grid", "method", "simulated_s", *(f"{name}_noise_Pa_per_s" for name 
 
 def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--until", type=float, default=1.0, metavar="T", help="noise: simulated time of a run [s] (1)")
+    command.add_argument("--jobs", type=int, default=1, metavar="N", help="noise: runs at a time (1)")
 
 
 def run(options: argparse.Namespace) -> int:
     if not options.until > 0:
         raise UserError(f"--until {options.until} is not a positive time", 2)
+    if options.jobs < 1:
+        raise UserError(f"--jobs {options.jobs} is no number of runs", 2)
     methods = options.method.split(",") if options.method else METHODS
     grids = options.mesh.split(",") if options.mesh else GRIDS
     place = folder() / "noise"
     place.mkdir(exist_ok=True)
-    rows = [Row(grid, method, options.until, place) for grid in grids for method in methods]
-    for row in rows:
-        row.measure()
-        write_table(rows, place / "noise.csv")
+    cases = {method: variant(method, place) for method in methods}
+    rows = [Row(grid, method, options.until, options.device, cases[method]) for grid in grids for method in methods]
+    with ThreadPoolExecutor(options.jobs) as pool:
+        for row in pool.map(Row.run, rows):
+            row.tell()
+            write_table(rows, place / "noise.csv")
     import noise_plots  # needs matplotlib
 
     for file in [place / "noise.csv", *noise_plots.draw(rows, place)]:
@@ -55,11 +61,12 @@ class Row:
     grid: str
     method: str
     until: float
-    place: Path
+    device: str
+    case: Path
 
     @property
     def folder(self) -> Path:
-        return self.place / f"{self.grid}-{self.method}-{self.until:g}s"
+        return self.case.parent / f"{self.grid}-{self.method}-{self.until:g}s"
 
     def is_finished(self) -> bool:
         try:
@@ -67,16 +74,18 @@ class Row:
         except (OSError, json.JSONDecodeError):
             return False
 
-    def measure(self) -> None:
+    def run(self) -> Row:
         if not self.is_finished():
             shutil.rmtree(self.folder, ignore_errors=True)
-            case = variant(self.method, self.place)
-            command = [str(ROOT / "gimdem"), "run", str(case), "--grid", self.grid, "--until", repr(self.until),
-                       "--threads", "1", "--output", str(self.folder)]
-            log = self.place / f"log.{self.folder.name}"
+            command = [str(ROOT / "gimdem"), "run", str(self.case), "--grid", self.grid, "--until", repr(self.until),
+                       "--threads", "1", "--device", self.device, "--output", str(self.folder)]
+            log = self.case.parent / f"log.{self.folder.name}"
             with log.open("wb") as file:
                 if subprocess.call(command, stdout=file, stderr=subprocess.STDOUT) != 0:
                     raise UserError(f"the run with {self.method} on grid {self.grid} failed; see {shown(log)}")
+        return self
+
+    def tell(self) -> None:
         for name, value in self.noise().items():
             print(f"figure: {name}_noise_{self.method.replace('-', '_')}_on_{self.grid} = {value:.4g} [Pa/s]",
                   flush=True)

@@ -10,7 +10,6 @@ from pathlib import Path
 from console import UserError, server_binary, shown
 from meshes import mesh_source
 
-CLIENTS = ("openfoam", "reference")
 DICTIONARIES = {
     "0/U": "initial and boundary velocity of the fluid",
     "0/p": "initial and boundary pressure of the fluid",

@@ -38,8 +38,8 @@ MPI = {
 def check(ranks: int, client: str) -> None:
     if not 1 <= ranks <= MOST:
         raise UserError(f"--ranks {ranks} is impossible (1 to {MOST}); choose about as many as there are cores", 2)
-    if ranks > 1 and client == "none":
-        raise UserError("--ranks is for the fluid, and this case has none; leave it out", 2)
+    if ranks > 1 and client != "openfoam":
+        raise UserError(f"--ranks is for the client openfoam, and this run has {client}; leave it out", 2)
     if ranks > 1 and shutil.which("mpirun") is None:
         raise UserError("mpirun is not on the PATH (it starts the ranks); run ./gimdem setup, or leave out --ranks")
 
@@ -98,7 +98,7 @@ def reconstruct(folder: Path, keep: bool = False) -> str:
 
 def reconstruct_before_restart(case: CaseDescription, wanted: str | None) -> None:
     """What a launcher that was killed has left. The parts are kept: the run may be alive."""
-    if wanted is None or case.client == "none":
+    if wanted is None or case.client != "openfoam":
         return
     if wanted == "latest":
         folders = sorted((case.folder / "runs").glob("[0-9]*"))[-1:]
@@ -152,11 +152,9 @@ class Scratch:
     def __init__(self, ranks: int) -> None:
         self._folder = tempfile.mkdtemp(prefix="gimdem-mpi-") if ranks > 1 else None
 
-    def environment(self) -> dict[str, str]:
-        env = openfoam.environment()
-        if self._folder is None:
-            return env
-        return {**MPI, **env, "TMPDIR": self._folder}
+    def environment(self, client: dict[str, str]) -> dict[str, str]:
+        """That of a client, with what MPI needs beside it."""
+        return client if self._folder is None else {**MPI, **client, "TMPDIR": self._folder}
 
     def remove(self) -> None:
         if self._folder is not None:

@@ -11,13 +11,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import openfoam
 import parallel
 from build import build, is_built_with_cuda
-from case_folder import CLIENTS, CaseDescription, check_grid, check_openfoam_dictionaries, describe, find_case_file
-from console import UserError, openfoam_client_binary, say, server_binary, shown
+from case_folder import CaseDescription, check_grid, describe, find_case_file
+from clients import CLIENTS, Program, find_client
+from console import UserError, say, server_binary, shown
 from endpoint import Endpoint
-from meshes import copy_into, is_script, mesh_source
 from process import how_it_ended, spawn
 from record import RunRecord
 from report import print_results
@@ -28,7 +27,8 @@ from supervise import Child, Outcome, Supervisor
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("case", metavar="CASE_DIR", help="a folder with a case.toml")
-    parser.add_argument("--client", choices=CLIENTS, help="who solves the fluid (default: as case.toml says)")
+    parser.add_argument("--client", metavar="NAME", help="who solves the fluid (default: as case.toml says): "
+                        f"{', '.join(CLIENTS)}, or the path of a program of yours (docs/write-a-client.md)")
     parser.add_argument("--schedule", choices=("serial", "overlapped"), help="who waits for whom (case.toml)")
     parser.add_argument("--device", choices=("auto", "cuda", "cpu"), default="auto",
                         help="where the particles are computed")
@@ -63,12 +63,14 @@ def run(options: argparse.Namespace) -> int:
     setup(quiet=True)
     build(("gimdem-server",))
     case = choose(describe(case_file), options)
-    if case.client != "none":
-        build(("gimdemFoam",))
-        check_openfoam_dictionaries(case)
+    client = None if case.client == "none" else find_client(case.client)
+    if client:
+        if client.targets:
+            build(client.targets)
+        client.check(case)
     endpoint = Endpoint(case.endpoint)
     try:
-        return run_in_folder(case, options, endpoint)
+        return run_in_folder(case, client, options, endpoint)
     finally:
         endpoint.close()
 
@@ -77,6 +79,8 @@ def refuse_what_is_to_come(client: str | None, device: str) -> None:
     """Options whose meaning is settled but that nothing implements here."""
     if client == "reference":
         raise UserError("the reference client is not part of this version; use --client openfoam", 2)
+    if client and client != "none":
+        find_client(client)
     if device == "cuda" and not is_built_with_cuda():
         raise UserError("this build computes particles on the CPU only; use --device cpu, or leave it out, or build "
                         "with CUDA as docs/gpu.md says", 2)
@@ -108,6 +112,7 @@ class Run:
     """One run in its folder."""
 
     case: CaseDescription
+    client: Program | None  # None: particles alone
     folder: Path
     endpoint: Endpoint
     threads: int | None
@@ -116,7 +121,7 @@ class Run:
 
     @property
     def client_log(self) -> Path:
-        return self.folder / "log.gimdemFoam"
+        return self.folder / f"log.{self.client.name if self.client else 'none'}"
 
     @property
     def server_log(self) -> Path:
@@ -146,35 +151,36 @@ class Run:
             return spawn(command, stdout=log, stderr=stderr)
 
     def start_client(self, scratch: parallel.Scratch) -> subprocess.Popen[bytes]:
-        client = [str(openfoam_client_binary()), "-case", str(self.folder), "-endpoint", self.endpoint.address]
+        assert self.client is not None
+        command = parallel.command(self.client.start_command(self.folder, self.endpoint.address), self.ranks)
         with self.client_log.open("ab") as log:
-            return spawn(parallel.command(client, self.ranks), stdout=log, stderr=subprocess.STDOUT, cwd=self.folder,
-                         env=scratch.environment())
+            return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder,
+                         env=scratch.environment(self.client.environment()))
 
     def carry_out(self) -> Outcome:
         """Both processes, to their end."""
         scratch = parallel.Scratch(self.ranks)
         try:
-            start_client = None if self.case.client == "none" else lambda: self.start_client(scratch)
-            return Supervisor(self.case.timeout).run(self.start_server, self.endpoint.bound, start_client)
+            start_client = (lambda: self.start_client(scratch)) if self.client else None
+            name = self.client.name if self.client else ""
+            return Supervisor(self.case.timeout, name).run(self.start_server, self.endpoint.bound, start_client)
         finally:
             scratch.remove()
 
 
-def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: Endpoint) -> int:
+def run_in_folder(case: CaseDescription, client: Program | None, options: argparse.Namespace, endpoint: Endpoint) -> int:
     parallel.reconstruct_before_restart(case, options.restart)
     restart = find_restart(case, options.restart)
-    run = Run(case, make_run_folder(case, options.output), endpoint, options.threads, restart, options.ranks)
-    alone = case.client == "none"
-    what = "particles alone" if alone else f"grid {case.grid or 'as it is'}, {case.schedule}"
+    run = Run(case, client, make_run_folder(case, options.output), endpoint, options.threads, restart, options.ranks)
+    what = "particles alone" if client is None else f"{client.name}, grid {case.grid or 'as it is'}, {case.schedule}"
     say("case", case.title)
     say("run", f"{shown(run.folder)}: {what}, until {case.until:g} s")
     copy_case(case, run.folder)
     if restart:
         restart.copy_fluid(run.folder)
         say("restart", shown(restart.checkpoint))
-    if not alone:
-        say("mesh", make_mesh(case, run.folder))
+    if client:
+        say("mesh", client.make_mesh(case, run.folder))
     if run.ranks > 1:
         say("ranks", parallel.decompose(run.folder, run.ranks))
     record = RunRecord(run.folder, run.settings())
@@ -192,14 +198,6 @@ def run_in_folder(case: CaseDescription, options: argparse.Namespace, endpoint: 
     if outcome.signal:
         say("stopped", f"by {signal.Signals(outcome.signal).name}, before the end")
     return exit_code(outcome)
-
-
-def make_mesh(case: CaseDescription, folder: Path) -> str:
-    """constant/polyMesh of the run, where a restart or the case has not brought one; returns one line about it."""
-    source = mesh_source(case.folder, case.grid)
-    if is_script(source) and not openfoam.has_mesh(folder):
-        return copy_into(folder, source)
-    return openfoam.make_mesh(folder)
 
 
 def in_words(outcome: Outcome) -> str:
@@ -224,7 +222,7 @@ def failure(outcome: Outcome, run: Run) -> str:
     first = outcome.first()
     lines = [f"the run failed: {how_it_ended(first.name, first.code)}"]
     for child in outcome.children():
-        told = " ".join(outcome.last_words) if child is outcome.server else openfoam.error_in(run.client_log)
+        told = " ".join(outcome.last_words) if child is outcome.server else run.client.error_in(run.client_log)
         reason = told or reason_without_words(child, child is first)
         lines += [f"  {child.name}: {reason}"] if reason else []
     logs = [log for log in (run.server_log, run.client_log) if log.exists() and log.stat().st_size]

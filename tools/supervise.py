@@ -96,7 +96,8 @@ class StopRequest:
 class Supervisor:
     """Start the server, then the client; see both to their end."""
 
-    def __init__(self, timeout: float) -> None:
+    def __init__(self, timeout: float, client_name: str) -> None:
+        self.client_name = client_name
         self.patience = timeout + 5  # for a process to notice that its peer, once connected, is gone [s]
 
     def run(
@@ -113,7 +114,7 @@ class Supervisor:
             while start_client and outcome.server.alive() and not server_ready() and not stop.count:
                 relay.pump(POLL, alive=True)
             if start_client and outcome.server.alive() and not stop.count:
-                outcome.client = Child("gimdemFoam", start_client())
+                outcome.client = Child(self.client_name, start_client())
             self._watch(outcome, relay, stop)
             outcome.last_words = relay.drain()
             return outcome

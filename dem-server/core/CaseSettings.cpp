@@ -41,7 +41,8 @@ Fields<RunSettings> const& settings_of(RunSettings const&)
     using S = RunSettings;
     static Fields<S> const fields = {
         required("until",  &S::until,  "s", above(0), "1.0", "time to simulate"),
-        optional("client", &S::client, "", one_of({"openfoam", "reference", "none"}), "\"openfoam\"",
+        optional("client", &S::client, "", one_of({"openfoam", "reference", "column-cpp", "column-c", "column-python", "none"}),
+                 "\"openfoam\"",
                  "who solves the fluid; none: particles alone"),
         optional("grid",   &S::grid,   "", anything(), "\"B\"", "mesh variant to use, one of grids"),
         optional("grids",  &S::grids,  "", anything(), "[\"A\", \"B\"]", "mesh variants on offer"),

@@ -42,6 +42,11 @@ class Refusals(FrontDoorTest):
         self.assertEqual(code, 2)
         self.assertIn("--until -1.0 is not a positive time", err)
 
+    def test_a_number_of_runs_that_is_none(self) -> None:
+        code, _, err = self.gimdem("bench", "noise", "--jobs", "0", patience=180)
+        self.assertEqual(code, 2)
+        self.assertIn("--jobs 0 is no number of runs", err)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// client.h over Client.hpp: no exception and no C++ type leaves this file.
+#include "gimdem/coupling/client.h"
+
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "c/Structs.hpp"
+#include "c/Views.hpp"
+
+using namespace gimdem::coupling;
+
+/// What the handle is.
+struct gimdem_client
+{
+    explicit gimdem_client(ClientOptions options) : client(std::move(options)) {}
+
+    Client client;
+    std::size_t cell_count = 0;
+    std::vector<char const*> needs;  ///< texts of client.welcome()
+};
+
+namespace
+{
+
+/// Survives a failure to remember a failure.
+thread_local std::string last_error;
+thread_local bool lost_error = false;
+
+void remember(char const* text) noexcept
+{
+    try
+    {
+        last_error = text;
+        lost_error = false;
+    }
+    catch (std::exception const&)
+    {
+        lost_error = true;
+    }
+}
+
+gimdem_status status_of(Fault fault)
+{
+    switch (fault)
+    {
+        case Fault::user:
+            return GIMDEM_ERROR_USER;
+        case Fault::version:
+            return GIMDEM_ERROR_VERSION;
+        case Fault::protocol:
+            return GIMDEM_ERROR_PROTOCOL;
+        case Fault::mesh:
+            return GIMDEM_ERROR_MESH;
+        case Fault::timeout:
+            return GIMDEM_ERROR_TIMEOUT;
+        case Fault::peer:
+            return GIMDEM_ERROR_PEER;
+        case Fault::endpoint:
+            return GIMDEM_ERROR_ENDPOINT;
+    }
+    return GIMDEM_ERROR_INTERNAL;
+}
+
+/// Runs a call; whatever it throws becomes a status and words.
+template <class Body>
+gimdem_status guarded(Body body) noexcept
+{
+    try
+    {
+        body();
+        return GIMDEM_OK;
+    }
+    catch (CouplingError const& error)
+    {
+        remember(error.what());
+        return status_of(error.fault());
+    }
+    catch (std::exception const& error)
+    {
+        remember(error.what());
+    }
+    catch (...)
+    {
+        remember("an unknown failure in libgimdem_client");
+    }
+    return GIMDEM_ERROR_INTERNAL;
+}
+
+gimdem_client& checked(gimdem_client* client)
+{
+    return c::require(client, "the client");
+}
+
+gimdem_welcome plain(Welcome const& welcome, std::vector<char const*> const& needs)
+{
+    gimdem_welcome result{};
+    result.server = welcome.server.c_str();
+    result.title = welcome.title.c_str();
+    result.end_time = welcome.end_time;
+    result.needs = needs.data();
+    result.need_count = needs.size();
+    result.schedule = welcome.schedule == Schedule::serial ? GIMDEM_SCHEDULE_SERIAL : GIMDEM_SCHEDULE_OVERLAPPED;
+    return result;
+}
+
+void connect(gimdem_client& handle, gimdem_fluid_properties const* fluid, gimdem_welcome* target)
+{
+    auto const given = c::read(fluid, "gimdem_fluid_properties");
+    if (target != nullptr) c::require_room(target, "gimdem_welcome");
+    Welcome const& welcome = handle.client.connect({given.density, given.viscosity});
+    handle.needs.clear();
+    for (std::string const& name : welcome.needs)
+        handle.needs.push_back(name.c_str());
+    if (target != nullptr) c::write(plain(welcome, handle.needs), target);
+}
+
+void begin_step(gimdem_client& handle, gimdem_step const* step, gimdem_fluid_fields const* fluid,
+                std::vector<Monitor> const& monitors, gimdem_solid_fields* target)
+{
+    auto const at = c::read(step, "gimdem_step");
+    auto const fields = c::read(fluid, "gimdem_fluid_fields");
+    c::require_room(target, "gimdem_solid_fields");
+    SolidFields const& solid = handle.client.begin_step({at.number, at.time, at.dt}, c::fields_of(fields), monitors);
+    c::write(c::plain(solid, handle.cell_count), target);
+}
+
+}  // namespace
+
+gimdem_status gimdem_client_protocol(int32_t* major, int32_t* minor)
+{
+    return guarded(
+        [&]
+        {
+            c::require(major, "major") = protocol_major;
+            c::require(minor, "minor") = protocol_minor;
+        });
+}
+
+char const* gimdem_client_last_error(void)
+{
+    return lost_error ? "no memory for the words of an error" : last_error.c_str();
+}
+
+gimdem_status gimdem_client_options_init(gimdem_client_options* options, size_t size)
+{
+    return guarded(
+        [&]
+        {
+            c::require(options, "gimdem_client_options").struct_size = size;
+            c::require_room(options, "gimdem_client_options");
+            ClientOptions const defaults;
+            gimdem_client_options plain{};
+            plain.timeout = defaults.timeout;
+            plain.connect_time = defaults.connect_time;
+            plain.step_time = defaults.step_time;
+            c::write(plain, options);
+        });
+}
+
+gimdem_status gimdem_client_create(gimdem_client_options const* options, gimdem_client** client)
+{
+    return guarded(
+        [&]
+        {
+            c::require(client, "the address of the client") = nullptr;
+            *client = new gimdem_client(c::options_of(c::read(options, "gimdem_client_options")));
+        });
+}
+
+gimdem_status gimdem_client_connect(gimdem_client* client, gimdem_fluid_properties const* fluid,
+                                    gimdem_welcome* welcome)
+{
+    return guarded([&] { connect(checked(client), fluid, welcome); });
+}
+
+gimdem_status gimdem_client_send_mesh(gimdem_client* client, gimdem_mesh const* mesh)
+{
+    return guarded(
+        [&]
+        {
+            gimdem_client& handle = checked(client);
+            MeshView const view = c::view_of(c::read(mesh, "gimdem_mesh"));
+            handle.client.send_mesh(view);
+            handle.cell_count = static_cast<std::size_t>(view.cell_count);
+        });
+}
+
+gimdem_status gimdem_client_begin_step(gimdem_client* client, gimdem_step const* step, gimdem_fluid_fields const* fluid,
+                                       gimdem_monitor const* monitors, size_t monitor_count, gimdem_solid_fields* solid)
+{
+    return guarded([&] { begin_step(checked(client), step, fluid, c::monitors_of(monitors, monitor_count), solid); });
+}
+
+gimdem_status gimdem_client_end_step(gimdem_client* client, gimdem_timings const* timings)
+{
+    return guarded(
+        [&]
+        {
+            gimdem_client& handle = checked(client);
+            Timings known;
+            if (timings != nullptr)
+            {
+                auto const given = c::read(timings, "gimdem_timings");
+                known.compute = given.compute;
+                known.output = given.output;
+            }
+            handle.client.end_step(known);
+        });
+}
+
+gimdem_status gimdem_client_solid(gimdem_client* client, gimdem_solid_fields* solid)
+{
+    return guarded(
+        [&]
+        {
+            gimdem_client& handle = checked(client);
+            c::require_room(solid, "gimdem_solid_fields");
+            c::write(c::plain(handle.client.solid(), handle.cell_count), solid);
+        });
+}
+
+gimdem_status gimdem_client_stop_request(gimdem_client* client, char const** reason)
+{
+    return guarded(
+        [&]
+        {
+            auto const& asked = checked(client).client.stop_request();
+            c::require(reason, "the address of the reason") = asked ? asked->c_str() : nullptr;
+        });
+}
+
+gimdem_status gimdem_client_exchange_times(gimdem_client* client, gimdem_exchange_times* times)
+{
+    return guarded(
+        [&]
+        {
+            ExchangeTimes const& known = checked(client).client.exchange_times();
+            c::require_room(times, "gimdem_exchange_times");
+            c::write(gimdem_exchange_times{0, known.exchange, known.waiting, known.bytes}, times);
+        });
+}
+
+gimdem_status gimdem_client_finish(gimdem_client* client, char const* reason)
+{
+    return guarded([&] { checked(client).client.finish(c::text(reason)); });
+}
+
+gimdem_status gimdem_client_abort(gimdem_client* client, char const* reason)
+{
+    return guarded([&] { checked(client).client.abort(c::text(reason)); });
+}
+
+gimdem_status gimdem_client_destroy(gimdem_client* client)
+{
+    return guarded([&] { delete client; });
+}

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The CFD side of a coupled run in Python: what Client.hpp is, without anything to build.
+
+    with Client(ClientOptions(endpoint, "mySolver")) as client:
+        welcome = client.connect(FluidProperties(density, viscosity))       # Hello -> Welcome
+        client.send_mesh(mesh)                                # Mesh -> MeshAccepted, then the solid at t = 0
+        while ...:                                            # both schedules, same loop
+            solid = client.begin_step(step, fluid, monitors)  # the solid to use in this fluid step
+            ...                                               # solve the fluid t -> t + dt
+            client.end_step()
+        client.finish("end time reached")                     # Goodbye
+
+Needs pyzmq, protobuf, numpy and, for its first import, protoc. SI units; arrays of numpy with a row for each cell.
+Each call raises CouplingError on a fault. Fields travel as plain frames, never through shared memory.
+"""
+from .client import Client
+from .errors import CouplingError, Fault
+from .types import (ClientOptions, ExchangeTimes, FluidFields, FluidProperties, Mesh, Monitor, Patch, SolidFields, Step,
+                    Timings, Welcome)
+
+__all__ = [
+    "Client", "ClientOptions", "CouplingError", "ExchangeTimes", "Fault", "FluidFields", "FluidProperties", "Mesh",
+    "Monitor", "Patch", "SolidFields", "Step", "Timings", "Welcome",
+]
