@@ -28,7 +28,7 @@ COLUMNS = ("grid", "method", "simulated_s", *(f"{name}_noise_Pa_per_s" for name 
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--until", type=float, default=1.0, metavar="T", help="noise: simulated time of a run [s] (1)")
+    command.add_argument("--until", type=float, default=1.0, metavar="T", help="noise, overlap: simulated time of a run [s] (1)")
     command.add_argument("--jobs", type=int, default=1, metavar="N", help="noise: runs at a time (1)")
 
 

@@ -34,6 +34,7 @@ class CaseDescription:
     until: float  # [s]
     endpoint: str
     timeout: float  # a silent peer is dead after this [s]
+    keys: str = ""  # folder, docs/security.md
     device: str = "auto"  # where the particles are computed
     precision: str | None = None  # of the contact laws, None: as the case file says
 
@@ -71,7 +72,7 @@ def describe(case_file: Path) -> CaseDescription:
     return CaseDescription(
         file=case_file, title=told["title"], client=told["client"], grid=told.get("grid", ""),
         grids=told.get("grids", []), schedule=told["schedule"], until=told["until"], endpoint=told["endpoint"],
-        timeout=told["timeout"],
+        timeout=told["timeout"], keys=told.get("keys", ""),
     )
 
 

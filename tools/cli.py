@@ -10,11 +10,15 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import bench_dem
+import bench_faults
 import bench_gim
 import bench_mapping
 import bench_noise
+import bench_overlap
+import fuzz
 import meshes
 import run_case
+import status
 from build import build
 from console import ROOT, UserError, build_dir, say, shown
 from packages import setup
@@ -35,13 +39,19 @@ def parser() -> argparse.ArgumentParser:
 
     run_case.add_options(add("run", run_case.run, "install what is missing, build, run a case, plot and sum up"))
     meshes.add_options(add("mesh", meshes.run, "make the mesh of a case without running it"))
+    status.add_options(add("status", status.run, "how a run stands: speed, balance, time left"))
     add("test", run_tests, f"build everything and run the tests, except {SKIPPED_LABELS}; further options go to ctest")
     bench = add("bench", run_benchmarks, "run the benchmarks")
     bench.add_argument("name", nargs="?",
-                       help="dem, mapping, noise, gim-figures (the figures of the method's paper), or a part of a program's name")
+                       help="dem, mapping, noise, overlap, faults, gim-figures (the figures of the method's paper), or a part of a program's name")
     bench_dem.add_options(bench)
     bench_mapping.add_options(bench)
     bench_noise.add_options(bench)
+    bench_overlap.add_options(bench)
+    bench_faults.add_options(bench)
+    fuzz.add_options(add("fuzz", fuzz.run, "throw random messages at the coupling library, with sanitizers"))
+    keys = add("keys", make_keys, "make keys for a server and a client on different machines")
+    keys.add_argument("folder", metavar="DIR", help="a new folder")
     figures = add("figures", show_figures, "print the figures of a run, or of two side by side")
     figures.add_argument("run", metavar="RUN_DIR", type=Path)
     figures.add_argument("compare", metavar="RUN_DIR2", type=Path, nargs="?")
@@ -75,6 +85,10 @@ def run_benchmarks(options: argparse.Namespace) -> int:
         return bench_mapping.run(options, parts_of(options, bench_mapping.PARTS))
     if options.name == "noise":
         return bench_noise.run(options)
+    if options.name == "overlap":
+        return bench_overlap.run(options)
+    if options.name == "faults":
+        return bench_faults.run(options)
     if options.name == "gim-figures":
         return bench_gim.run(options)
     found = {path.name: path for path in sorted((build_dir() / "bin").glob("*benchmark*"))}
@@ -97,6 +111,15 @@ def parts_of(options: argparse.Namespace, known: Sequence[str]) -> list[str]:
         if name not in known:
             raise UserError(f"no part {name} of the benchmark (there are {', '.join(known)}); see --help", 2)
     return parts or list(known)
+
+
+def make_keys(options: argparse.Namespace) -> int:
+    setup(quiet=True)
+    build(("gimdem-keys",))
+    code = subprocess.call([str(build_dir() / "bin" / "gimdem-keys"), options.folder])
+    if code == 0:
+        say("keys", f"made in {options.folder}; docs/security.md tells which machine needs which file")
+    return code
 
 
 def show_figures(options: argparse.Namespace) -> int:

@@ -30,7 +30,10 @@ class Program:
     def make_mesh(self, case: CaseDescription, folder: Path) -> str:
         return f"by {self.name}"
 
-    def start_command(self, folder: Path, endpoint: str) -> list[str]:
+    def start_command(self, folder: Path, endpoint: str, keys: str) -> list[str]:
+        if keys:
+            raise UserError(f"{self.name} is not told of [coupling] keys here (only OpenFOAM's client is); leave keys "
+                            "out, or start server and client by hand, docs/security.md", 2)
         return [*self.command, endpoint, str(folder)]
 
     def environment(self) -> dict[str, str]:
@@ -57,8 +60,9 @@ class OpenFoam(Program):
             return copy_into(folder, source)
         return openfoam.make_mesh(folder)
 
-    def start_command(self, folder: Path, endpoint: str) -> list[str]:
-        return [str(openfoam_client_binary()), "-case", str(folder), "-endpoint", endpoint]
+    def start_command(self, folder: Path, endpoint: str, keys: str) -> list[str]:
+        options = ["-keys", keys] if keys else []
+        return [str(openfoam_client_binary()), "-case", str(folder), "-endpoint", endpoint, *options]
 
     def environment(self) -> dict[str, str]:
         return openfoam.environment()

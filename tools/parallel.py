@@ -39,7 +39,8 @@ def check(ranks: int, client: str) -> None:
     if not 1 <= ranks <= MOST:
         raise UserError(f"--ranks {ranks} is impossible (1 to {MOST}); choose about as many as there are cores", 2)
     if ranks > 1 and client != "openfoam":
-        raise UserError(f"--ranks is for the client openfoam, and this run has {client}; leave it out", 2)
+        who = "this case has no fluid" if client == "none" else f"the client {client} is one process"
+        raise UserError(f"--ranks is for OpenFOAM, and {who}; leave it out", 2)
     if ranks > 1 and shutil.which("mpirun") is None:
         raise UserError("mpirun is not on the PATH (it starts the ranks); run ./gimdem setup, or leave out --ranks")
 
@@ -152,9 +153,11 @@ class Scratch:
     def __init__(self, ranks: int) -> None:
         self._folder = tempfile.mkdtemp(prefix="gimdem-mpi-") if ranks > 1 else None
 
-    def environment(self, client: dict[str, str]) -> dict[str, str]:
-        """That of a client, with what MPI needs beside it."""
-        return client if self._folder is None else {**MPI, **client, "TMPDIR": self._folder}
+    def environment(self, env: dict[str, str]) -> dict[str, str]:
+        """That of the client, and what MPI needs."""
+        if self._folder is None:
+            return env
+        return {**MPI, **env, "TMPDIR": self._folder}
 
     def remove(self) -> None:
         if self._folder is not None:

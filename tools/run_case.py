@@ -7,7 +7,7 @@ import os
 import signal
 import subprocess
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +29,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("case", metavar="CASE_DIR", help="a folder with a case.toml")
     parser.add_argument("--client", metavar="NAME", help="who solves the fluid (default: as case.toml says): "
                         f"{', '.join(CLIENTS)}, or the path of a program of yours (docs/write-a-client.md)")
-    parser.add_argument("--schedule", choices=("serial", "overlapped"), help="who waits for whom (case.toml)")
+    parser.add_argument("--schedule", choices=("serial", "overlapped", "iterated"),
+                        help="who waits for whom (case.toml)")
     parser.add_argument("--device", choices=("auto", "cuda", "cpu"), default="auto",
                         help="where the particles are computed")
     parser.add_argument("--precision", choices=("double", "mixed"), help="of the contact laws (case.toml)")
@@ -40,6 +41,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                         help="processes that solve the fluid, with MPI (1)")
     parser.add_argument("--restart", metavar="FILE",
                         help="go on from a checkpoint, or from the latest of the case: --restart latest")
+    parser.add_argument("--trace", action="store_true", help="write trace.json, which Perfetto opens")
+    parser.add_argument("--trace-steps", metavar="N", type=count, default=1000, help="coupling steps in it (1000)")
+    parser.add_argument("--trace-every", metavar="K", type=positive_count, default=1, help="of every K-th step (1)")
     parser.add_argument("--output", metavar="DIR", help="run folder; must be new or empty (CASE_DIR/runs/NNNN)")
 
 
@@ -53,6 +57,12 @@ def positive(text: str) -> float:
 def count(text: str) -> int:
     if int(text) < 0:
         raise argparse.ArgumentTypeError(f"{text} is negative")
+    return int(text)
+
+
+def positive_count(text: str) -> int:
+    if int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not 1 or more")
     return int(text)
 
 
@@ -79,7 +89,7 @@ def refuse_what_is_to_come(client: str | None, device: str) -> None:
     """Options whose meaning is settled but that nothing implements here."""
     if client == "reference":
         raise UserError("the reference client is not part of this version; use --client openfoam", 2)
-    if client and client != "none":
+    if client:
         find_client(client)
     if device == "cuda" and not is_built_with_cuda():
         raise UserError("this build computes particles on the CPU only; use --device cpu, or leave it out, or build "
@@ -89,6 +99,9 @@ def refuse_what_is_to_come(client: str | None, device: str) -> None:
 def check_client(case: CaseDescription, options: argparse.Namespace) -> None:
     if case.client == "none" and options.client:
         raise UserError(f"{shown(case.file)} has no fluid (client = \"none\"); leave out --client", 2)
+    if case.client == "none" and options.trace:
+        raise UserError(f"{shown(case.file)} has no fluid (a trace shows the steps of two programs); leave out --trace",
+                        2)
 
 
 def choose(case: CaseDescription, options: argparse.Namespace) -> CaseDescription:
@@ -118,6 +131,7 @@ class Run:
     threads: int | None
     restart: Restart | None = None
     ranks: int = 1
+    trace: list[str] = field(default_factory=list)  # options of the server
 
     @property
     def client_log(self) -> Path:
@@ -147,15 +161,20 @@ class Run:
             command += ["--threads", str(self.threads)]
         if self.restart:
             command += ["--restart", str(self.restart.checkpoint)]
+        command += self.trace
         with self.server_log.open("ab") as log:
             return spawn(command, stdout=log, stderr=stderr)
 
     def start_client(self, scratch: parallel.Scratch) -> subprocess.Popen[bytes]:
         assert self.client is not None
-        command = parallel.command(self.client.start_command(self.folder, self.endpoint.address), self.ranks)
+        alone = self.client.start_command(self.folder, self.endpoint.address, self.case.keys)
+        if self.restart and self.restart.fluid:
+            alone += ["-restart", self.restart.fluid.name]
+        command = parallel.command(alone, self.ranks)
+        environment = {**self.client.environment(), "GIMDEM_CLIENT_LOG": str(self.folder / "log.client.jsonl")}
         with self.client_log.open("ab") as log:
             return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder,
-                         env=scratch.environment(self.client.environment()))
+                         env=scratch.environment(environment))
 
     def carry_out(self) -> Outcome:
         """Both processes, to their end."""
@@ -171,7 +190,8 @@ class Run:
 def run_in_folder(case: CaseDescription, client: Program | None, options: argparse.Namespace, endpoint: Endpoint) -> int:
     parallel.reconstruct_before_restart(case, options.restart)
     restart = find_restart(case, options.restart)
-    run = Run(case, client, make_run_folder(case, options.output), endpoint, options.threads, restart, options.ranks)
+    run = Run(case, client, make_run_folder(case, options.output), endpoint, options.threads, restart, options.ranks,
+              trace_options(options))
     what = "particles alone" if client is None else f"{client.name}, grid {case.grid or 'as it is'}, {case.schedule}"
     say("case", case.title)
     say("run", f"{shown(run.folder)}: {what}, until {case.until:g} s")
@@ -198,6 +218,12 @@ def run_in_folder(case: CaseDescription, client: Program | None, options: argpar
     if outcome.signal:
         say("stopped", f"by {signal.Signals(outcome.signal).name}, before the end")
     return exit_code(outcome)
+
+
+def trace_options(options: argparse.Namespace) -> list[str]:
+    if not options.trace:
+        return []
+    return ["--trace-steps", str(options.trace_steps), "--trace-every", str(options.trace_every)]
 
 
 def in_words(outcome: Outcome) -> str:

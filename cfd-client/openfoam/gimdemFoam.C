@@ -36,6 +36,7 @@ Description
 #include "sigFpe.H"
 
 #include "couplingClient.H"
+#include "fluidCheckpoint.H"
 #include "halfCells.H"
 
 #ifdef __GLIBC__
@@ -76,12 +77,14 @@ static void simulate
     std::unique_ptr<couplingClient>& server
 )
 {
-    #include "createTime.H"
+    Info<< "Create time\n" << endl;
+    resumableTime runTime(args);
+    const auto resumed = fluidCheckpoint::resume(runTime, args);
 
     // Ctrl-C is the server's: it asks for an orderly end
     std::signal(SIGINT, SIG_IGN);
 
-    server.reset(new couplingClient(runTime, args));
+    server.reset(new couplingClient(runTime, args, resumed));
     couplingClient& particles = *server;
 
     #include "createMesh.H"
@@ -93,7 +96,11 @@ static void simulate
     particles.connect(rho, mu);
     runTime.setEndTime(particles.endTime());
     particles.sendMesh(mesh);
-    particles.getSolid(alpha, K, M);
+    if (!resumed)
+    {
+        particles.getSolid(alpha, K, M);
+    }
+    const label fluidSteps = particles.fluidSteps();
 
     #include "initialFlux.H"
     #include "setFluid.H"
@@ -104,7 +111,9 @@ static void simulate
 
     while (runTime.run() && !particles.stopRequested())
     {
-        const scalar deltaT = runTime.deltaTValue();
+        // A coupling step has fluidSteps equal steps of the fluid. In schedule
+        // iterated it has one, which is repeated
+        const scalar deltaT = fluidSteps*runTime.deltaTValue();
         try
         {
             particles.beginStep(runTime.value(), deltaT);
@@ -112,38 +121,78 @@ static void simulate
         catch (const std::exception&)
         {
             // Keep the fluid where the particles ended
-            runTime.writeNow();
+            runTime.writeFields();
             throw;
         }
 
         clockTime clock;
-        ++runTime;
-
-        particles.getSolid(alpha, K, M);
-        #include "updateSolid.H"
-
-        while (pimple.loop())
-        {
-            #include "UEqn.H"
-
-            while (pimple.correct())
-            {
-                #include "pEqn.H"
-            }
-        }
-
-        requireConvergent
+        bool writeDue = false;
+        bool repeats = false;
+        const volScalarField p0
         (
-            runTime,
-            "velocity in m/s",
-            Foam::sqrt(gMax(magSqr(U.primitiveField()))),
-            pimple.dict().getOrDefault<scalar>("maxVelocity", 340)
+            IOobject
+            (
+                "p0",
+                runTime.timeName(),
+                mesh,
+                IOobject::NO_READ,
+                IOobject::NO_WRITE,
+                false
+            ),
+            p
         );
-        #include "setFluid.H"
+
+        do
+        {
+            for (label stepsLeft = fluidSteps; stepsLeft > 0; --stepsLeft)
+            {
+                if (repeats)
+                {
+                    #include "restoreFluid.H"
+                }
+                else
+                {
+                    ++runTime;
+                    writeDue = writeDue || runTime.writeTime();
+                }
+
+                particles.getSolid(alpha, K, M, stepsLeft);
+                #include "updateSolid.H"
+
+                while (pimple.loop())
+                {
+                    #include "UEqn.H"
+
+                    while (pimple.correct())
+                    {
+                        #include "pEqn.H"
+                    }
+                }
+
+                requireConvergent
+                (
+                    runTime,
+                    "velocity in m/s",
+                    Foam::sqrt(gMax(magSqr(U.primitiveField()))),
+                    pimple.dict().getOrDefault<scalar>("maxVelocity", 340)
+                );
+            }
+            #include "setFluid.H"
+
+            repeats = particles.iterate();
+        } while (repeats);
 
         const scalar compute = clock.timeIncrement();
-        runTime.write();
+        if (writeDue)
+        {
+            // Only here do both solvers stand at the same time
+            runTime.writeFields();
+        }
         particles.endStep(compute, clock.timeIncrement());
+        if (writeDue)
+        {
+            particles.saveCheckpoint(runTime);
+        }
 
         #include "reportStep.H"
 
@@ -151,9 +200,10 @@ static void simulate
         #include "setTimeStep.H"
     }
 
-    if (!runTime.writeTime())
+    if (!runTime.isWritten())
     {
-        runTime.writeNow();
+        runTime.writeFields();
+        particles.saveCheckpoint(runTime);
     }
     particles.finish
     (
@@ -226,6 +276,9 @@ int main(int argc, char *argv[])
 {
     keepFreedMemory();
 
+    // A limit of file sizes is an error of writing, as a full disk is
+    std::signal(SIGXFSZ, SIG_IGN);
+
     argList::addNote
     (
         "The fluid of a coupled run: volume-averaged Navier-Stokes equations,"
@@ -233,6 +286,7 @@ int main(int argc, char *argv[])
     );
     argList::addBoolOption("verbose", "print each linear solver's residuals");
     couplingClient::addOptions();
+    fluidCheckpoint::addOptions();
 
     #include "setRootCase.H"
 

@@ -95,7 +95,7 @@ private:
         findings_.check("handshake", has_fluid,
                         text("\"%s\", density %.6g kg/m^3, viscosity %.6g Pa s", client.name.c_str(),
                              client.fluid.density, client.fluid.viscosity));
-        if (client.schedule) findings_.tell("schedule", *client.schedule == Schedule::serial ? "serial" : "overlapped");
+        if (client.schedule) findings_.tell("schedule", name_of(*client.schedule));
         stage_ = "mesh";
         return client;
     }

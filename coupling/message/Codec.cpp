@@ -111,13 +111,22 @@ void read_envelope(transport::Frame const& frame, Message& message)
         refuse("an envelope of " + std::to_string(frame.size()) + " bytes that cannot be read");
 }
 
+/// Only steps are repeated, and none without end.
+void check_iteration(Message const& message)
+{
+    auto const pass = message.envelope.iteration();
+    bool const is_step = message.kind() == Kind::kFluidState || message.kind() == Kind::kSolidState;
+    if (pass < 0 || pass > max_pass || (pass > 0 && !is_step))
+        refuse(kind_name(message.kind()) + " with iteration " + std::to_string(pass) +
+               " (a FluidState or SolidState has 0 to " + std::to_string(max_pass) + ", any other message 0)");
+}
+
 /// All that does not depend on the state of the session.
 void check(Message& message)
 {
     check_version(message.envelope);
     if (message.kind() == Kind::KIND_NOT_SET) refuse("an envelope without a message in it");
-    if (message.envelope.iteration() != 0)
-        refuse("iteration " + std::to_string(message.envelope.iteration()) + " (protocol 1.0 has only 0)");
+    check_iteration(message);
     if (!may_have_arrays(message.kind()) && !message.arrays.empty())
         refuse(kind_name(message.kind()) + " with array frames (it has none)");
     check_arrays(message);

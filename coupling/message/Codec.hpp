@@ -23,10 +23,11 @@ Message decode_posted(transport::Frame const& envelope);
 /// The kind of a message, from its first frame alone; KIND_NOT_SET if it cannot be read.
 Kind peek_kind(transport::Frame const& envelope);
 
-/// Is this how a client may begin? Heartbeats and last words of some earlier session are not.
+/// Is this how a client may begin? Heartbeats, last words of some earlier session, and questions are not.
 inline bool may_open(Kind kind)
 {
-    return kind != Kind::kHeartbeat && kind != Kind::kError && kind != Kind::kGoodbye;
+    return kind != Kind::kHeartbeat && kind != Kind::kError && kind != Kind::kGoodbye && kind != Kind::kStatusRequest &&
+           kind != Kind::kStatus;
 }
 
 }  // namespace gimdem::coupling::message

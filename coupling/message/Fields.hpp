@@ -66,6 +66,16 @@ void look_through(Message& message, std::size_t count);
 template <class Fields>
 std::size_t shared_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count);
 
+/// Bytes of the chosen fields.
+template <class Fields>
+std::size_t field_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count)
+{
+    std::size_t components = 0;
+    for (auto const& entry : choice)
+        components += entry.components;
+    return components * cell_count * sizeof(double);
+}
+
 /// The chosen fields, in place; the others are empty. Fault::protocol if the message has others than the chosen ones,
 /// or the wrong sizes, or a NaN or infinity.
 template <class Fields>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "message/Greeting.hpp"
 
+#include <algorithm>
+
+#include "message/CheckpointMessages.hpp"
 #include "message/Fields.hpp"
 
 namespace gimdem::coupling::message
@@ -10,7 +13,16 @@ namespace
 
 v1::Schedule to_wire(Schedule schedule)
 {
-    return schedule == Schedule::serial ? v1::SCHEDULE_SERIAL : v1::SCHEDULE_OVERLAPPED;
+    switch (schedule)
+    {
+        case Schedule::serial:
+            return v1::SCHEDULE_SERIAL;
+        case Schedule::overlapped:
+            return v1::SCHEDULE_OVERLAPPED;
+        case Schedule::iterated:
+            return v1::SCHEDULE_ITERATED;
+    }
+    return v1::SCHEDULE_UNSPECIFIED;
 }
 
 std::optional<Schedule> from_wire(v1::Schedule schedule)
@@ -23,9 +35,27 @@ std::optional<Schedule> from_wire(v1::Schedule schedule)
             return Schedule::serial;
         case v1::SCHEDULE_OVERLAPPED:
             return Schedule::overlapped;
+        case v1::SCHEDULE_ITERATED:
+            return Schedule::iterated;
         default:
             refuse("unknown schedule " + std::to_string(static_cast<int>(schedule)));
     }
+}
+
+void pack_iteration(Iteration const& iteration, v1::Iteration& body)
+{
+    body.set_tolerance(iteration.tolerance);
+    body.set_max_passes(iteration.max_passes);
+    body.set_relaxation(iteration.relaxation);
+    body.set_must_converge(iteration.must_converge);
+}
+
+Iteration unpack_iteration(v1::Iteration const& body)
+{
+    check_number(body.tolerance(), 0, "Welcome: tolerance");
+    check_number(body.max_passes(), 1, "Welcome: max_passes");
+    check_number(body.relaxation(), 0, "Welcome: relaxation");
+    return {body.tolerance(), body.max_passes(), body.relaxation(), body.must_converge()};
 }
 
 void pack_rank(Rank const& rank, v1::Hello& body)
@@ -66,6 +96,8 @@ Message pack(Hello const& hello)
         body.add_wants(name);
     if (hello.schedule) body.set_schedule(to_wire(*hello.schedule));
     body.set_timeout(hello.timeout);
+    if (hello.resume) pack_resume_point(*hello.resume, body);
+    body.set_iterates(hello.iterates);
     pack_rank(hello.rank, body);
     return message;
 }
@@ -80,6 +112,9 @@ Message pack(Welcome const& welcome)
     body.set_end_time(welcome.end_time);
     for (std::string const& name : welcome.needs)
         body.add_needs(name);
+    body.set_saves_checkpoints(welcome.saves_checkpoints);
+    body.set_fluid_steps(welcome.fluid_steps);
+    if (welcome.schedule == Schedule::iterated) pack_iteration(welcome.iteration, *body.mutable_iteration());
     for (std::string const& endpoint : welcome.rank_endpoints)
         body.add_rank_endpoints(endpoint);
     return message;
@@ -94,6 +129,8 @@ Hello unpack_hello(Message const& message)
     hello.wants.assign(body.wants().begin(), body.wants().end());
     hello.schedule = from_wire(body.schedule());
     hello.timeout = body.timeout();
+    hello.resume = unpack_resume_point(body);
+    hello.iterates = body.iterates();
     hello.rank = unpack_rank(body);
 
     check_name(hello.name, "Hello: the client's name");
@@ -116,6 +153,9 @@ Welcome unpack_welcome(Message const& message)
     welcome.schedule = *schedule;
     welcome.end_time = body.end_time();
     welcome.needs.assign(body.needs().begin(), body.needs().end());
+    welcome.saves_checkpoints = body.saves_checkpoints();
+    welcome.fluid_steps = std::max(1, body.fluid_steps());
+    if (*schedule == Schedule::iterated) welcome.iteration = unpack_iteration(body.iteration());
     welcome.rank_endpoints.assign(body.rank_endpoints().begin(), body.rank_endpoints().end());
 
     check_name(welcome.server, "Welcome: the server's name");

@@ -53,6 +53,14 @@ std::string kind_name(Kind kind)
             return "Error";
         case Kind::kGoodbye:
             return "Goodbye";
+        case Kind::kCheckpoint:
+            return "Checkpoint";
+        case Kind::kCheckpointSaved:
+            return "CheckpointSaved";
+        case Kind::kStatusRequest:
+            return "StatusRequest";
+        case Kind::kStatus:
+            return "Status";
         case Kind::KIND_NOT_SET:
             break;
     }

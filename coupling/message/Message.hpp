@@ -46,6 +46,7 @@ std::string printable(std::string const& text);
 
 inline constexpr std::size_t max_text_bytes = 8192;  ///< of a reason
 inline constexpr std::size_t max_name_bytes = 256;   ///< of a name
+inline constexpr int max_pass = 10000;               ///< of a step that is repeated
 inline constexpr double min_timeout = 0.1;           ///< a peer needs this much to show that it lives [s]
 
 /// A number as people write it: "0.5", "1e-300", "nan".

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "message/ClockMessages.hpp"
+
 namespace gimdem::coupling::message
 {
 namespace
@@ -86,6 +88,12 @@ Message lay_out(FluidState const& state, Terms const& terms)
     pack_timings(state.previous, *body.mutable_previous());
     body.set_exchange(state.exchange);
     body.set_waiting(state.waiting);
+    message.envelope.set_iteration(state.pass);
+    check_sent_number(state.residual, 0, "residual");
+    if (state.pass > 0)
+        body.mutable_rewind()->set_residual(state.residual);
+    else
+        body.set_residual(state.residual);
     lay_out_fields(message, terms.fluid, state.fields, terms.cell_count, terms.memory);
     return message;
 }
@@ -118,6 +126,17 @@ FluidState unpack_fluid_state(Message const& message, Terms const& terms)
     state.previous = unpack_timings(body.previous());
     state.exchange = body.exchange();
     state.waiting = body.waiting();
+    state.pass = message.envelope.iteration();
+    if (body.has_rewind() != (state.pass > 0))
+        refuse("FluidState of iteration " + std::to_string(state.pass) + (body.has_rewind() ? " with" : " without") +
+               " a Rewind (just those above 0 have one)");
+    state.residual = body.has_rewind() ? body.rewind().residual() : body.residual();
+    check_number(state.residual, 0, "FluidState: residual");
+    if (body.has_previous_times())
+    {
+        state.previous_times = unpack_times(body.previous_times());
+        state.clock = unpack_offset(body.previous_times());
+    }
     return state;
 }
 

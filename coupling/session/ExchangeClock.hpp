@@ -25,17 +25,20 @@ public:
         packing_ = transport::seconds_between(entered, left);
     }
 
-    /// Serial: begin_step() returns with the solid; the server was busy for so long [s].
-    void answered_serial(Time left, double busy)
+    /// Serial: begin_step() returns with the solid; the server was busy for so long [s]. Returns what of it was waiting
+    /// [s].
+    double answered_serial(Time left, double busy)
     {
         double const call = transport::seconds_between(sent_at_, left);
         double const waiting = std::min(call, busy);
         times_.waiting += waiting;
         times_.exchange += call - waiting;
+        return waiting;
     }
 
-    /// Overlapped: end_step() was entered, the solid had arrived or did so later, and end_step() returns.
-    void answered_overlapped(Time entered, Time arrival, Time left, double busy)
+    /// Overlapped: end_step() was entered, the solid had arrived or did so later, and end_step() returns. Returns what
+    /// of it was waiting [s].
+    double answered_overlapped(Time entered, Time arrival, Time left, double busy)
     {
         double const blocked = std::max(0.0, transport::seconds_between(entered, arrival));
         double const round_trip = transport::seconds_between(sent_at_, arrival);
@@ -43,6 +46,7 @@ public:
         double const waiting = std::max(0.0, blocked - transfer);
         times_.waiting += waiting;
         times_.exchange += packing_ + transport::seconds_between(entered, left) - waiting;
+        return waiting;
     }
 
     void set_bytes(double bytes) { times_.bytes = bytes; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/Inbox.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace gimdem::coupling::session
@@ -11,6 +12,13 @@ namespace
 /// The protocol has one message in flight. A peer that sends more than this without being read is out of order anyway:
 /// the first letters tell so, and the rest need not be kept.
 std::size_t constexpr capacity = 16;
+/// Of those, with arrays.
+std::size_t constexpr large_capacity = 2;
+
+bool is_large(Letter const& letter)
+{
+    return !letter.message.arrays.empty();
+}
 
 }  // namespace
 
@@ -19,7 +27,9 @@ void Inbox::put(Letter letter)
     {
         std::lock_guard<std::mutex> const lock(mutex_);
         contact_ = true;
-        if (letters_.size() < capacity) letters_.push_back(std::move(letter));
+        auto const large = static_cast<std::size_t>(std::count_if(letters_.begin(), letters_.end(), is_large));
+        bool const fits = letters_.size() < capacity && (!is_large(letter) || large < large_capacity);
+        if (fits) letters_.push_back(std::move(letter));
     }
     changed_.notify_all();
 }

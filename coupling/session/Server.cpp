@@ -5,6 +5,8 @@
 #include <mutex>
 #include <utility>
 
+#include "message/CheckpointMessages.hpp"
+#include "message/ClockMessages.hpp"
 #include "message/Greeting.hpp"
 #include "message/MeshMessage.hpp"
 #include "message/StepMessages.hpp"
@@ -50,6 +52,8 @@ struct Server::Impl : session::Exchange
     void look_for_loss() override { session.look_for_loss("all ranks"); }
     bool has_failed() const override { return session.state() == State::failed; }
 
+    /// Of a client in several processes none are saved.
+    bool saves_checkpoints() const { return saver && !ranks && !expected_rank; }
     void wait_for_contact();
     void check_rank(Rank const& rank);
     void listen_for_others(Rank const& first);
@@ -62,8 +66,9 @@ struct Server::Impl : session::Exchange
     session::Exchange const& whole() const { return const_cast<Impl*>(this)->whole(); }
 
     session::Letter receive(std::string const& awaited);
+    void save_checkpoint(session::Letter const& letter);
     bool said_goodbye(session::Letter const& letter);
-    void check_order(Step const& step);
+    void check_order(FluidState const& fluid);
     std::optional<std::string> stop_reason();
 
     /// Runs a call; a fault that leaves the session alive is remembered, in case the program ends because of it.
@@ -83,13 +88,18 @@ struct Server::Impl : session::Exchange
 
     ServerOptions options;
     message::Terms terms;
+    CheckpointSaver saver;
     session::SharedFields shared;    ///< outlives the messages that lie in it
     message::Message fluid_message;  ///< holds the bytes that the spans of the last FluidState show
     session::StepOrder order;
+    bool iterates = false;  ///< the schedule iterated is in force
+    int pass = 0;           ///< of the fluid that is being answered
     std::string goodbye;
     double busy_before = 0;  ///< the last fluid lay here unread for so long [s]
     Time handed_out;         ///< when receive_fluid() returned
-    std::mutex stop_mutex;   ///< request_stop() may come from another thread
+    ServerTimes times;       ///< of the last step
+    std::optional<LastClientStep> last_client_step;
+    std::mutex stop_mutex;  ///< request_stop() may come from another thread
     std::optional<std::string> stop;
     std::optional<Rank> expected_rank;
     session::Session session;
@@ -105,8 +115,11 @@ Server::Impl::Impl(ServerOptions given, std::optional<Rank> expected)
     session::require_seconds(options.timeout, message::min_timeout, "ServerOptions.timeout");
     session::require_seconds(options.connect_time, 0, "ServerOptions.connect_time");
     session::require_seconds(options.step_time, message::min_timeout, "ServerOptions.step_time");
-    session.open(transport::Socket::bind(options.endpoint));
+    std::optional<transport::ServerKeys> keys;
+    if (!options.keys.empty()) keys = transport::read_server_keys(options.keys);
+    session.open(transport::Socket::bind(options.endpoint, keys), options.log);
     shared.want(options.shared_memory && session.is_ipc());
+    if (options.clock_origin == 0) options.clock_origin = clock_now();
 }
 
 ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
@@ -122,14 +135,38 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
     if (!expected_rank && hello.rank.count > 1) listen_for_others(hello.rank);
     session.choose_session_number();
     terms.solid = message::choose_solid_fields(hello.wants, Fault::protocol);
+    Schedule const schedule = hello.schedule.value_or(offered.schedule);
+    iterates = schedule == Schedule::iterated;
+    if (iterates && !hello.iterates)
+        session.fail(Fault::user, "the schedule is iterated, and " + session.peer_name() +
+                                      " cannot repeat a step (it does not say so in Hello); choose schedule serial or "
+                                      "overlapped, or another client");
 
     message::Message welcome =
-        message::pack(Welcome{options.name, offered.title, hello.schedule.value_or(offered.schedule), offered.end_time,
-                              offered.needs, ranks ? ranks->endpoints() : std::vector<std::string>()});
+        message::pack(Welcome{.server = options.name,
+                              .title = offered.title,
+                              .schedule = schedule,
+                              .end_time = offered.end_time,
+                              .needs = offered.needs,
+                              .saves_checkpoints = saves_checkpoints(),
+                              .fluid_steps = offered.fluid_steps,
+                              .iteration = offered.iteration,
+                              .rank_endpoints = ranks ? ranks->endpoints() : std::vector<std::string>()});
     shared.offer(welcome);
     shared.agree(letter.message);
+    session.limit_arrays(transport::half_of_memory());
+    if (session.read([&] { return message::clock_reading(letter.message); }))
+        message::put(
+            {transport::on_clock(letter.arrival), clock_now(), options.clock_origin, message::machine_number()},
+            welcome);
     session.send(std::move(welcome));
-    ClientInfo info{hello.name, hello.fluid, hello.wants, hello.schedule, hello.rank.count};
+    ClientInfo info{.name = hello.name,
+                    .fluid = hello.fluid,
+                    .wants = hello.wants,
+                    .schedule = hello.schedule,
+                    .resume = hello.resume,
+                    .iterates = hello.iterates,
+                    .ranks = hello.rank.count};
     if (ranks) ranks->wait_for_others(info, offered);
     return info;
 }
@@ -185,6 +222,7 @@ Mesh Server::Impl::receive_mesh()
         [&] { return shared.map_announced(letter.message); }));  // first, so that no fault leaves its name behind
     Mesh mesh = session.read([&] { return message::unpack_mesh(letter.message); });
     terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
+    session.limit_arrays(message::field_bytes(terms.fluid, terms.cell_count));
     return mesh;
 }
 
@@ -208,29 +246,52 @@ std::optional<FluidState> Server::Impl::receive_fluid()
     if (session.state() == State::finished) return std::nullopt;
 
     session::Letter letter = receive("FluidState");
+    for (; letter.message.kind() == message::Kind::kCheckpoint; letter = receive("FluidState"))
+        save_checkpoint(letter);
     if (said_goodbye(letter)) return std::nullopt;
 
     session.set_step(letter.message.envelope.step());
     session.read([&] { shared.attach(letter.message); });
     FluidState fluid = session.read([&] { return message::unpack_fluid_state(letter.message, terms); });
-    check_order(fluid.step);
+    check_order(fluid);
+    pass = fluid.pass;
     if (auto outbox = shared.use_if_confirmed(letter.message, terms.memory)) session.use(std::move(outbox));
     fluid_message = std::move(letter.message);
     busy_before = std::max(0.0, seconds_between(letter.arrival, entered));
     handed_out = Clock::now();
+    times.asked = transport::on_clock(entered);
+    times.arrived = transport::on_clock(letter.arrival);
+    times.handed_out = transport::on_clock(handed_out);
+    if (fluid.clock) session.status_desk().publish(*fluid.clock);
     return fluid;
+}
+
+void Server::Impl::save_checkpoint(session::Letter const& letter)
+{
+    CheckpointRequest const request = session.read([&] { return message::unpack_checkpoint_request(letter.message); });
+    if (!saves_checkpoints())
+        session.fail(Fault::protocol, message::describe(letter.message) + " from " + session.peer_name() +
+                                          " is not allowed (this server saves none, as its Welcome told); do not ask "
+                                          "for one");
+    message::Message answer = message::pack(saver(request));
+    session.advance(Event::checkpoint_is_saved);
+    session.send(std::move(answer));
 }
 
 void Server::Impl::send_solid(SolidFields const& fields, Timings const& timings)
 {
+    times.answering = clock_now();
     double const busy = busy_before + seconds_between(handed_out, Clock::now());
     session.require(Event::send_solid);
     message::Message solid = message::lay_out(message::SolidState{fields, timings, busy, stop_reason()}, terms);
+    solid.envelope.set_iteration(pass);
+    message::put({times.arrived, times.answering, options.clock_origin, 0}, solid);
     session.prepare(solid);
     session.look_for_trouble("the solid of its program");
     session.advance(Event::send_solid);
     session.send(std::move(solid));
     terms.memory.message_sent();
+    times.answered = clock_now();
 }
 
 void Server::Impl::request_stop(std::string const& reason)
@@ -254,15 +315,22 @@ bool Server::Impl::said_goodbye(session::Letter const& letter)
 {
     if (letter.message.kind() != message::Kind::kGoodbye) return false;
     goodbye = message::unpack_goodbye(letter.message);
+    last_client_step = session.read([&] { return message::unpack_last_step(letter.message); });
     return true;
 }
 
-void Server::Impl::check_order(Step const& step)
+void Server::Impl::check_order(FluidState const& fluid)
 {
-    if (auto const fault = order.find_fault(step))
+    bool const repeats = fluid.pass > 0;
+    auto fault = repeats ? order.find_fault_of_repeat(fluid.step, fluid.pass) : order.find_fault(fluid.step);
+    if (repeats && !iterates) fault = "it repeats a step, and the schedule is not iterated";
+    if (fault)
         session.fail(Fault::protocol, "FluidState from " + session.peer_name() + " is out of order: " + *fault +
                                           "; check how the client counts its steps and its time");
-    order.accept(step);
+    if (repeats)
+        order.accept_repeat(fluid.step, fluid.pass);
+    else
+        order.accept(fluid.step);
 }
 
 Server::Server(ServerOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
@@ -273,6 +341,11 @@ Server& Server::operator=(Server&&) noexcept = default;
 std::string const& Server::endpoint() const
 {
     return impl_->session.endpoint();
+}
+
+void Server::save_checkpoints_by(CheckpointSaver saver)
+{
+    impl_->saver = std::move(saver);
 }
 
 ClientInfo Server::wait_for_client(ServerTerms const& terms)
@@ -315,6 +388,16 @@ void Server::send_solid(SolidFields const& fields, Timings const& timings)
     impl_->guard([&] { impl_->whole().send_solid(fields, timings); });
 }
 
+bool Server::has_lost_client() const
+{
+    return !impl_->ranks && impl_->session.has_lost_peer();
+}
+
+std::uint64_t Server::session_number() const
+{
+    return impl_->session.session_number();
+}
+
 void Server::abort(std::string const& reason) noexcept
 {
     impl_->whole().abort(Fault::user, reason);
@@ -323,6 +406,21 @@ void Server::abort(std::string const& reason) noexcept
 void Server::request_stop(std::string const& reason)
 {
     impl_->whole().request_stop(reason);
+}
+
+ServerTimes const& Server::step_times() const
+{
+    return impl_->times;
+}
+
+std::optional<LastClientStep> const& Server::last_client_step() const
+{
+    return impl_->last_client_step;
+}
+
+void Server::publish(RunStatus run)
+{
+    impl_->session.status_desk().publish(std::move(run));
 }
 
 double Server::bytes() const

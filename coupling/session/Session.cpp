@@ -41,14 +41,18 @@ Session::~Session()
     abort(Fault::user, why);
 }
 
-void Session::open(transport::Socket socket)
+void Session::open(transport::Socket socket, std::function<void(std::string const&)> log)
 {
+    log_ = std::move(log);
     transport::ChannelHooks hooks;
     hooks.deliver = [this](transport::Frames frames, Time arrival) { return on_frames(std::move(frames), arrival); };
     hooks.heartbeat = [this] { return on_heartbeat_due(); };
     hooks.may_open = [this](transport::Frame const& first)
     { return role_ == Role::client || message::may_open(message::peek_kind(first)); };
     hooks.answer_stranger = [this](transport::Frames frames) { return on_stranger(std::move(frames)); };
+    hooks.note = [this](std::string const& text) { on_note(text); };
+    if (role_ == Role::server)
+        hooks.answer_question = [this](transport::Frames& frames) { return on_question(frames); };
     hooks.ended = [this](transport::Ending ending) { inbox_.end(std::move(ending)); };
     endpoint_ = socket.endpoint();
     channel_ = std::make_unique<transport::Channel>(std::move(socket), timeout_, std::move(hooks));
@@ -78,13 +82,25 @@ void Session::advance(Event event)
 {
     std::lock_guard<std::mutex> const lock(mutex_);
     state_ = next_state(rules_, state_, event).value_or(State::failed);
+    state_since_ = transport::Clock::now();
     ++progress_;
+}
+
+void Session::note_heard(Time arrival)
+{
+    std::lock_guard<std::mutex> const lock(mutex_);
+    heard_ = std::max(heard_.value_or(arrival), arrival);
 }
 
 void Session::set_step(std::int64_t step)
 {
     std::lock_guard<std::mutex> const lock(mutex_);
     step_ = step;
+}
+
+void Session::limit_arrays(std::size_t bytes)
+{
+    most_array_bytes_ = std::max(bytes, least_limit);
 }
 
 void Session::choose_session_number()
@@ -149,6 +165,7 @@ Letter Session::receive(std::string const& awaited, Time deadline, double patien
     Message const& message = delivery.letter->message;
     bytes_ += static_cast<double>(message.envelope.ByteSizeLong() + message::array_bytes(message));
     advance(*event_of(message.kind()));
+    note_heard(delivery.letter->arrival);
     return std::move(*delivery.letter);
 }
 

@@ -2,6 +2,7 @@
 /// What both sides of a session have in common: state, order, and what to say when something goes wrong.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -13,11 +14,15 @@
 #include "message/Control.hpp"
 #include "session/Inbox.hpp"
 #include "session/States.hpp"
+#include "session/StatusDesk.hpp"
 #include "transport/Channel.hpp"
 #include "transport/Mailbox.hpp"
 
 namespace gimdem::coupling::session
 {
+
+/// Arrays of this size may come at any time; the checks of a message tell more than its size does [byte].
+inline constexpr std::size_t least_limit = std::size_t{1} << 20;
 
 using transport::Role;
 using transport::Time;
@@ -36,13 +41,16 @@ public:
     Session(Session const&) = delete;
     Session& operator=(Session const&) = delete;
 
-    /// Starts to talk over the socket.
-    void open(transport::Socket socket);
+    /// Starts to talk over the socket. log: what the program's user may like to know, told on the I/O thread.
+    void open(transport::Socket socket, std::function<void(std::string const&)> log = {});
 
     State state() const;
     std::string const& endpoint() const { return endpoint_; }
     bool is_ipc() const { return endpoint_.rfind("ipc:", 0) == 0; }
     double bytes() const { return bytes_; }
+    std::uint64_t session_number() const { return session_number_; }
+    /// The peer is gone, silent or slow; it has not said why.
+    bool has_lost_peer() const { return has_lost_peer_; }
 
     /// Fault::user, which ends nothing, if the call is not legal now.
     void require(Event call);
@@ -62,6 +70,9 @@ public:
     void use(std::unique_ptr<transport::Outbox> outbox) { outbox_ = std::move(outbox); }
     void use(std::unique_ptr<transport::Postbox> postbox) { postbox_ = std::move(postbox); }
 
+    /// From now on a message of the peer with more bytes in its arrays is refused unread. It may always have a few.
+    void limit_arrays(std::size_t bytes);
+
     /// The next message, checked against the state table. awaited: what we wait for, in words.
     Letter receive(std::string const& awaited, Time deadline, double patience);
     /// False if the peer has not appeared by then.
@@ -79,6 +90,9 @@ public:
     /// Remembers a fault that did not end the session, as the likely reason if it ends soon.
     void note(std::string const& text) { last_fault_ = text; }
 
+    /// Server: what it answers to a StatusRequest.
+    StatusDesk& status_desk() { return desk_; }
+
     /// Ends the session: tells the peer, and throws.
     [[noreturn]] void fail(Fault fault, std::string const& text);
     /// Ends the session: tells the peer, waits one second at most for the words to leave.
@@ -90,6 +104,8 @@ public:
     std::string our_name() const;
     std::string peer_name() const;
     void set_peer_name(std::string const& name);
+    /// What the connection met with last, " (...)"; empty if nothing.
+    std::string connection_note() const;
 
 private:
     bool is_over() const;
@@ -97,6 +113,7 @@ private:
     Delivery watched_letter(Time deadline);
     std::optional<Letter> take_post();
     void stamp(message::Message& message) const;
+    void note_heard(Time arrival);
     void fall(std::string const& why);
     void tell(Fault fault, std::string const& reason);
     void check_letter(Letter const& letter, std::string const& awaited);
@@ -111,7 +128,10 @@ private:
     std::optional<double> on_frames(transport::Frames frames, Time arrival);
     std::optional<double> on_message(message::Message message, Time arrival);
     transport::Frames on_heartbeat_due() const;
+    void on_note(std::string const& text);
     transport::Frames on_stranger(transport::Frames frames) const;
+    std::optional<transport::Frames> on_question(transport::Frames& frames);
+    Status status() const;
 
     Role const role_;
     std::string const name_;
@@ -120,15 +140,22 @@ private:
     std::string endpoint_;
     std::string last_fault_;
     double bytes_ = 0;
+    bool has_lost_peer_ = false;
+    std::atomic<std::size_t> most_array_bytes_{least_limit};
+    std::function<void(std::string const&)> log_;
     std::uint64_t session_number_ = 0;
 
     mutable std::mutex mutex_;  ///< guards what follows
     State state_;
+    Time state_since_ = transport::Clock::now();
+    std::optional<Time> heard_;  ///< the peer, the last time
     std::int64_t step_ = 0;
     std::uint64_t progress_ = 0;
-    std::string peer_;                   ///< name
+    std::string peer_;  ///< name
+    std::string connection_note_;
     message::Heartbeat peer_heartbeat_;  ///< the last one
 
+    StatusDesk desk_;
     Inbox inbox_;
     std::unique_ptr<transport::Outbox> outbox_;    ///< null: everything goes through the channel
     std::unique_ptr<transport::Postbox> postbox_;  ///< null: everything comes through the channel

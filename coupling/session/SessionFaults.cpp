@@ -53,11 +53,15 @@ void Session::fail_by_peer(Message const& message, std::string const& awaited)
 
 void Session::fail_by_ending(transport::Ending const& ending, std::string const& awaited)
 {
+    has_lost_peer_ = true;
     std::string const us = our_name() + " was waiting for " + awaited + " " + here();
     if (ending.kind == transport::Ending::Kind::silent)
         fail(Fault::timeout, peer_name() + " at " + endpoint_ + " has been silent for " + seconds_text(ending.silence) +
                                  " (time-out " + seconds_text(timeout_) + "; " + last_word() + "); " + us +
                                  "; see whether it was stopped or hangs, or raise the time-out");
+    if (ending.kind == transport::Ending::Kind::refused)
+        fail(Fault::endpoint, peer_name() + " at " + endpoint_ + " has turned us away (it does not know our key); " +
+                                  us + "; have its user put our client.public among its clients, see docs/security.md");
     std::string const detail = ending.detail.empty() ? "" : ", " + ending.detail;
     fail(Fault::peer, peer_name() + " at " + endpoint_ + " has disappeared (its connection broke" + detail + "; " +
                           last_word() + "); " + us + "; its own output should tell why it ended");
@@ -65,6 +69,7 @@ void Session::fail_by_ending(transport::Ending const& ending, std::string const&
 
 void Session::fail_by_delay(std::string const& awaited, double patience)
 {
+    has_lost_peer_ = true;
     fail(Fault::timeout, peer_name() + " at " + endpoint_ + " has not sent " + awaited + " within " +
                              seconds_text(patience) + " (" + last_word() + "); " + our_name() + " was waiting " +
                              here() + "; see what it is doing, or allow more time");
@@ -75,6 +80,7 @@ void Session::fall(std::string const& why)
     last_fault_ = why;
     std::lock_guard<std::mutex> const lock(mutex_);
     state_ = State::failed;
+    state_since_ = transport::Clock::now();
     ++progress_;
 }
 
@@ -115,6 +121,12 @@ std::string Session::peer_name() const
 {
     std::lock_guard<std::mutex> const lock(mutex_);
     return named(other(role_), peer_.empty() ? peer_heartbeat_.name : peer_);
+}
+
+std::string Session::connection_note() const
+{
+    std::lock_guard<std::mutex> const lock(mutex_);
+    return connection_note_.empty() ? "" : " (" + connection_note_ + ")";
 }
 
 void Session::set_peer_name(std::string const& name)

@@ -14,8 +14,14 @@ using message::Message;
 
 std::optional<double> Session::on_frames(transport::Frames frames, Time arrival)
 {
+    note_heard(arrival);
     try
     {
+        std::size_t const bytes = transport::byte_count(frames);
+        std::size_t const most = most_array_bytes_ + (frames.empty() ? 0 : frames.front().size());
+        if (bytes > most)
+            message::refuse("a message of " + std::to_string(bytes) +
+                            " bytes (no message of this session has more than " + std::to_string(most) + ")");
         return on_message(message::decode(std::move(frames)), arrival);
     }
     catch (CouplingError const& error)
@@ -47,6 +53,13 @@ transport::Frames Session::on_heartbeat_due() const
     std::lock_guard<std::mutex> const lock(mutex_);
     Message message = message::pack(message::Heartbeat{name_, name_of(state_), step_, progress_, timeout_});
     return message::encode(std::move(message));
+}
+
+void Session::on_note(std::string const& text)
+{
+    if (log_) log_(text);
+    std::lock_guard<std::mutex> const lock(mutex_);
+    connection_note_ = text;
 }
 
 transport::Frames Session::on_stranger(transport::Frames frames) const

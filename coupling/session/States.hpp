@@ -24,7 +24,10 @@ enum class State
     waiting,      ///< client, serial: for the solid of this step, while its program is blocked
     solving,      ///< client, serial: for its program to end the fluid step
     overlapping,  ///< client, overlapped: for its program to end the fluid step, and the solid of the step
+    awaiting,     ///< client, iterated: for the solid of this pass, while its program is blocked
+    iterating,    ///< client, iterated: for its program to repeat or to end the fluid step
     computing,    ///< server: for its program to answer the fluid
+    saving,       ///< client: for CheckpointSaved; server: for its program to save a checkpoint
     finished,     ///< both: Goodbye was said
     failed        ///< both: a fault ended the session
 };
@@ -38,7 +41,10 @@ enum class Event
     send_mesh,
     begin_serial_step,
     begin_overlapped_step,
+    begin_iterated_step,
+    iterate_step,
     end_step,
+    save_checkpoint,
     finish,
     // calls of the server's program
     wait_for_client,
@@ -47,6 +53,7 @@ enum class Event
     reject_mesh,
     receive_fluid,
     send_solid,
+    checkpoint_is_saved,
     // messages
     hello,
     welcome,
@@ -54,7 +61,9 @@ enum class Event
     mesh_accepted,
     fluid_state,
     solid_state,
-    goodbye
+    goodbye,
+    checkpoint,
+    checkpoint_saved
 };
 
 /// In state `from`, `event` is legal and leads to state `to`. What no rule allows is refused.

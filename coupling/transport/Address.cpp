@@ -61,7 +61,30 @@ Address parse_ipc(std::string const& endpoint)
     return {endpoint, path, false};
 }
 
-Address parse_tcp(std::string const& endpoint, Role role)
+/// A name or number of a host as users write it, "[...]" for IPv6; "*" is every address of the machine.
+bool is_host(std::string const& text, Role role)
+{
+    if (text == "*") return role == Role::server;
+    bool const ipv6 = text.size() > 2 && text.front() == '[' && text.back() == ']';
+    std::string const inner = ipv6 ? text.substr(1, text.size() - 2) : text;
+    return !inner.empty() && std::all_of(inner.begin(), inner.end(),
+                                         [&](unsigned char c) {
+                                             return std::isalnum(c) != 0 || c == '.' || c == '-' || (ipv6 && c == ':');
+                                         });
+}
+
+void check_host(std::string const& endpoint, std::string const& host, Role role, Protection protection)
+{
+    if (host == "[::1]" || is_loopback_v4(host)) return;
+    if (protection == Protection::none)
+        refuse(endpoint,
+               "is not on this machine (only ipc:// and the loopback addresses 127.x.x.x, localhost and [::1] are "
+               "allowed without keys: other machines could read and forge messages); use ipc:// or tcp://127.0.0.1, "
+               "or make keys with ./gimdem keys DIR and give both sides theirs, see docs/security.md");
+    if (!is_host(host, role)) refuse(endpoint, "has no valid host; write tcp://host:port");
+}
+
+Address parse_tcp(std::string const& endpoint, Role role, Protection protection)
 {
     std::string const rest = endpoint.substr(std::string("tcp://").size());
     std::size_t const colon = rest.rfind(':');
@@ -70,25 +93,20 @@ Address parse_tcp(std::string const& endpoint, Role role)
     std::string const port = rest.substr(colon + 1);
 
     if (host == "localhost") host = "127.0.0.1";
-    bool const ipv6 = host == "[::1]";
-    if (!ipv6 && !is_loopback_v4(host))
-        refuse(endpoint,
-               "is not on this machine (only ipc:// and the loopback addresses 127.x.x.x, localhost and [::1] are "
-               "allowed: other machines could read and forge messages without encryption keys, which this version "
-               "does not have); use ipc:// or tcp://127.0.0.1, and a tunnel (ssh -L) between machines");
+    check_host(endpoint, host, role, protection);
     if (!is_port(port) && !(port == "*" && role == Role::server))
         refuse(endpoint, "has no valid port (a number from 1 to 65535" +
                              std::string(role == Role::server ? ", or * for any free one" : "") +
                              "); write tcp://127.0.0.1:port");
-    return {"tcp://" + host + ":" + port, "", ipv6};
+    return {"tcp://" + host + ":" + port, "", host.front() == '['};
 }
 
 }  // namespace
 
-Address parse_address(std::string const& endpoint, Role role)
+Address parse_address(std::string const& endpoint, Role role, Protection protection)
 {
     if (starts_with(endpoint, "ipc://")) return parse_ipc(endpoint);
-    if (starts_with(endpoint, "tcp://")) return parse_tcp(endpoint, role);
+    if (starts_with(endpoint, "tcp://")) return parse_tcp(endpoint, role, protection);
     refuse(endpoint, "has an unknown transport; write ipc:///path/of/socket or tcp://127.0.0.1:port");
 }
 

@@ -14,7 +14,7 @@ enum class Role
     server
 };
 
-/// An address that passed the security rule: a local socket file, or a tcp port of this machine.
+/// An address that passed the security rule: a local socket file, or a tcp port of this machine; with keys any port.
 struct Address
 {
     std::string text;  ///< as ZeroMQ wants it
@@ -24,8 +24,15 @@ struct Address
     bool is_ipc() const { return !path.empty(); }
 };
 
+/// Whether the two sides know each other by keys, and encrypt what they say.
+enum class Protection
+{
+    none,
+    keys
+};
+
 /// Reads "ipc:///path/socket" or "tcp://127.0.0.1:port". Anything that another machine could reach is
-/// Fault::endpoint: messages are neither encrypted nor authenticated.
-Address parse_address(std::string const& endpoint, Role role);
+/// Fault::endpoint, unless keys protect it.
+Address parse_address(std::string const& endpoint, Role role, Protection protection = Protection::none);
 
 }  // namespace gimdem::coupling::transport

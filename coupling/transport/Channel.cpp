@@ -17,6 +17,11 @@ using namespace std::chrono_literals;
 auto constexpr probe_time = 500ms;
 auto constexpr probe_interval = 10ms;
 
+/// Messages that are read before heartbeats and what is to be sent have their turn again, whatever strangers send.
+int constexpr messages_per_turn = 64;
+/// Read before the end, in search of the last words of the peer.
+int constexpr last_messages = 1024;
+
 }  // namespace
 
 Channel::Channel(Socket socket, double timeout, ChannelHooks hooks)
@@ -89,10 +94,12 @@ void Channel::turn()
 
     // The break is noted before the last messages are read, and reported after them.
     bool const broke = socket_.connection_broke();
+    tell_notes();
     liveness_.turn(Clock::now());
     send_queued();
-    receive_all();
+    receive_some(messages_per_turn);
     if (broke) handle_broken_connection();
+    if (socket_.was_refused()) end({Ending::Kind::refused, 0, ""});
 
     Time const now = Clock::now();
     if (liveness_.beat_due(now) || now < probe_until_) beat(now);
@@ -111,14 +118,33 @@ void Channel::send_queued()
         if (!lost_ && !socket_.send(peer_, frames)) lose();
 }
 
-void Channel::receive_all()
+void Channel::tell_notes()
 {
-    while (auto parcel = socket_.receive())
+    for (std::string const& text : socket_.take_notes())
+        if (hooks_.note) hooks_.note(text);
+}
+
+void Channel::receive_some(int most)
+{
+    for (int k = 0; k < most; ++k)
+    {
+        auto parcel = socket_.receive();
+        if (!parcel) return;
         receive_from(std::move(*parcel), Clock::now());
+    }
+}
+
+bool Channel::answer_question(Parcel& parcel)
+{
+    if (!hooks_.answer_question) return false;
+    auto answer = hooks_.answer_question(parcel.frames);
+    if (answer && !answer->empty()) socket_.send(parcel.sender, *answer);
+    return answer.has_value();
 }
 
 void Channel::receive_from(Parcel parcel, Time now)
 {
+    if (answer_question(parcel)) return;
     if (!liveness_.has_contact())
     {
         if (parcel.frames.empty() || !hooks_.may_open(parcel.frames.front())) return;
@@ -154,7 +180,7 @@ void Channel::beat(Time now)
 void Channel::lose()
 {
     lost_ = true;
-    receive_all();  // the last words of the peer, which may explain it
+    receive_some(last_messages);  // the last words of the peer, which may explain it
     end({});
 }
 

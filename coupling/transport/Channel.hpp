@@ -22,8 +22,9 @@ struct Ending
 {
     enum class Kind
     {
-        lost,   ///< the connection broke: the peer's process is gone
-        silent  ///< the connection stands but the peer says nothing
+        lost,    ///< the connection broke: the peer's process is gone
+        silent,  ///< the connection stands but the peer says nothing
+        refused  ///< client: the server does not let our key in
     };
     Kind kind = Kind::lost;
     double silence = 0;  ///< [s]
@@ -41,6 +42,11 @@ struct ChannelHooks
     std::function<bool(Frame const&)> may_open;
     /// Someone other than the peer sent this to the server. Returns the answer, or nothing.
     std::function<Frames(Frames)> answer_stranger;
+    /// Something for the user's eyes, Socket::take_notes(). May be empty.
+    std::function<void(std::string const&)> note;
+    /// Anybody, who does not become the peer by this, may ask something of the server. Returns the answer, which may be
+    /// empty, if this is a question; else leaves the frames as they are. Null: nobody may ask.
+    std::function<std::optional<Frames>(Frames&)> answer_question;
     /// Nothing more will come. Called once.
     std::function<void(Ending)> ended;
 };
@@ -69,7 +75,9 @@ private:
     void run() noexcept;
     void turn();
     void send_queued();
-    void receive_all();
+    void tell_notes();
+    void receive_some(int most);
+    bool answer_question(Parcel& parcel);
     void receive_from(Parcel parcel, Time now);
     void handle_broken_connection();
     void beat(Time now);

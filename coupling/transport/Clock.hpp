@@ -25,4 +25,10 @@ inline double seconds_between(Time from, Time to)
     return Seconds(to - from).count();
 }
 
+/// What the clock shows [s].
+inline double on_clock(Time time)
+{
+    return Seconds(time.time_since_epoch()).count();
+}
+
 }  // namespace gimdem::coupling::transport

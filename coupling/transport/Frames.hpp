@@ -2,6 +2,7 @@
 /// The parts of one message on the wire.
 #pragma once
 
+#include <unistd.h>
 #include <cstddef>
 #include <vector>
 
@@ -18,6 +19,12 @@ using Frames = std::vector<Frame>;
 inline constexpr std::size_t max_frame_bytes = std::size_t{4} << 30;
 /// The most frames in one message.
 inline constexpr std::size_t max_frames = 32;
+
+/// What a mesh may take at most: half of the machine's memory [byte].
+inline std::size_t half_of_memory()
+{
+    return static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) / 2 * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
 
 inline std::size_t byte_count(Frames const& frames)
 {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "transport/Socket.hpp"
 
+#include <sys/stat.h>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "gimdem/coupling/Error.hpp"
 
@@ -17,7 +19,13 @@ namespace
 /// Room for a whole step of a small case in the system's buffers, where the system allows it [byte].
 int constexpr system_buffer = 4 << 20;
 
+/// Messages of one peer that wait in ZeroMQ: the answers and heartbeats of a time-out, and a few that nobody has read.
+int constexpr most_unsent = 64;
+int constexpr most_unread = 16;
+
 char const* const monitor_address = "inproc://monitor";
+int constexpr failed_handshake =
+    ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL | ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL | ZMQ_EVENT_HANDSHAKE_FAILED_AUTH;
 
 [[noreturn]] void refuse(Address const& address, char const* action, zmq::error_t const& error)
 {
@@ -45,8 +53,9 @@ Socket::Socket(Role role, Address const& address)
       monitor_(context_, zmq::socket_type::pair)
 {
     // Nothing waits in ZeroMQ for long: the other side reads at once, and the protocol allows few messages in flight.
-    socket_.set(zmq::sockopt::sndhwm, 0);
-    socket_.set(zmq::sockopt::rcvhwm, 0);
+    // Whoever sends more than it may is read as fast as we look at it, and whoever does not read is sent no more.
+    socket_.set(zmq::sockopt::sndhwm, most_unsent);
+    socket_.set(zmq::sockopt::rcvhwm, most_unread);
     socket_.set(zmq::sockopt::sndbuf, system_buffer);
     socket_.set(zmq::sockopt::rcvbuf, system_buffer);
     socket_.set(zmq::sockopt::linger, 0);
@@ -62,10 +71,11 @@ Socket::~Socket()
     if (socket_.handle() != nullptr) close(Clock::duration::zero());
 }
 
-Socket Socket::connect(std::string const& endpoint)
+Socket Socket::connect(std::string const& endpoint, std::optional<ClientKeys> const& keys)
 {
-    Address const address = parse_address(endpoint, Role::client);
+    Address const address = parse_address(endpoint, Role::client, keys ? Protection::keys : Protection::none);
     Socket socket(Role::client, address);
+    if (keys) socket.protect(*keys);
     try
     {
         socket.socket_.connect(address.text);
@@ -77,13 +87,15 @@ Socket Socket::connect(std::string const& endpoint)
     return socket;
 }
 
-Socket Socket::bind(std::string const& endpoint)
+Socket Socket::bind(std::string const& endpoint, std::optional<ServerKeys> const& keys)
 {
-    Address const address = parse_address(endpoint, Role::server);
+    Address const address = parse_address(endpoint, Role::server, keys ? Protection::keys : Protection::none);
     Socket socket(Role::server, address);
+    if (keys) socket.protect(*keys);
     try
     {
         socket.socket_.bind(address.text);
+        if (address.is_ipc()) ::chmod(address.path.c_str(), S_IRUSR | S_IWUSR);  // its user alone may connect
     }
     catch (zmq::error_t const& error)
     {
@@ -95,18 +107,48 @@ Socket Socket::bind(std::string const& endpoint)
 
 void Socket::watch_connections()
 {
-    if (zmq_socket_monitor(socket_.handle(), monitor_address, ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_DISCONNECTED) !=
-        0)
-        throw zmq::error_t();
+    int constexpr events = ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_DISCONNECTED | failed_handshake;
+    if (zmq_socket_monitor(socket_.handle(), monitor_address, events) != 0) throw zmq::error_t();
     monitor_.connect(monitor_address);
+}
+
+void Socket::protect(ClientKeys const& keys)
+{
+    socket_.set(zmq::sockopt::curve_serverkey, keys.server);
+    socket_.set(zmq::sockopt::curve_publickey, keys.own.public_key);
+    socket_.set(zmq::sockopt::curve_secretkey, keys.own.secret_key);
+}
+
+void Socket::protect(ServerKeys const& keys)
+{
+    gatekeeper_ = std::make_unique<Gatekeeper>(context_, keys.clients);
+    socket_.set(zmq::sockopt::curve_server, true);
+    socket_.set(zmq::sockopt::curve_secretkey, keys.own.secret_key);
+    socket_.set(zmq::sockopt::zap_domain, std::string("gimdem"));
+}
+
+void Socket::note_broken_handshake()
+{
+    if (role_ == Role::client)
+        note_ =
+            "a program answers there and breaks off the handshake: the keys of the two sides do not fit, or one has "
+            "none";
+    else if (gatekeeper_)
+        gatekeeper_->note("a connection came without a key, or with another server's public key, and was closed");
+}
+
+std::vector<std::string> Socket::take_notes()
+{
+    if (gatekeeper_) return gatekeeper_->take_notes();
+    return note_.empty() ? std::vector<std::string>() : std::vector<std::string>{std::exchange(note_, "")};
 }
 
 bool Socket::send(std::string const& receiver, Frames& frames)
 {
     try
     {
-        if (role_ == Role::server)
-            socket_.send(zmq::buffer(receiver), zmq::send_flags::sndmore | zmq::send_flags::dontwait);
+        auto constexpr address = zmq::send_flags::sndmore | zmq::send_flags::dontwait;
+        if (role_ == Role::server && !socket_.send(zmq::buffer(receiver), address)) return false;
         for (std::size_t k = 0; k < frames.size(); ++k)
         {
             auto const more = k + 1 < frames.size() ? zmq::send_flags::sndmore : zmq::send_flags::none;
@@ -152,6 +194,10 @@ bool Socket::connection_broke()
         std::uint16_t event = 0;
         std::memcpy(&event, frame.data(), sizeof(event));
         if (event == ZMQ_EVENT_HANDSHAKE_SUCCEEDED) greeted_ = true;
+        if (event == ZMQ_EVENT_HANDSHAKE_FAILED_AUTH) refused_ = role_ == Role::client;
+        // A server also sees connections that were only opened and closed: somebody looked whether it is there.
+        int const failure = role_ == Role::server ? ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL : failed_handshake;
+        if ((event & failure) != 0) note_broken_handshake();
         // Before the handshake it is not a server of ours; ZeroMQ tries again.
         if (event == ZMQ_EVENT_DISCONNECTED) broke = broke || greeted_;
     }
@@ -160,12 +206,14 @@ bool Socket::connection_broke()
 
 void Socket::wait(int descriptor, Time until)
 {
-    std::array<zmq::pollitem_t, 3> items{{{socket_.handle(), 0, ZMQ_POLLIN, 0},
+    std::array<zmq::pollitem_t, 4> items{{{socket_.handle(), 0, ZMQ_POLLIN, 0},
                                           {monitor_.handle(), 0, ZMQ_POLLIN, 0},
-                                          {nullptr, descriptor, ZMQ_POLLIN, 0}}};
+                                          {nullptr, descriptor, ZMQ_POLLIN, 0},
+                                          {gatekeeper_ ? gatekeeper_->handle() : nullptr, descriptor, ZMQ_POLLIN, 0}}};
     try
     {
-        zmq::poll(items.data(), items.size(), poll_time(until));
+        zmq::poll(items.data(), gatekeeper_ ? 4 : 3, poll_time(until));
+        if (gatekeeper_) gatekeeper_->serve();
     }
     catch (zmq::error_t const& error)
     {
@@ -188,6 +236,7 @@ void Socket::close(Clock::duration linger) noexcept
     zmq_socket_monitor(socket_.handle(), nullptr, 0);
     socket_.close();
     monitor_.close();
+    gatekeeper_.reset();
     context_.close();
 }
 

@@ -10,6 +10,7 @@
 
 #include "app/DemLog.hpp"
 #include "app/Run.hpp"
+#include "app/RunEvents.hpp"
 #include "core/Error.hpp"
 #include "engine/DomainBounds.hpp"
 #include "engine/InletFlow.hpp"
@@ -38,6 +39,7 @@ public:
     DemRun(Case const& settings, std::filesystem::path const& folder, Materials const& materials,
            ParticleState particles)
         : settings_(settings),
+          events_(folder),
           folder_(folder),
           dt_(settings.dem.time_step),
           last_step_(std::llround(std::ceil(settings.run.until / dt_ - 1e-9))),
@@ -68,8 +70,9 @@ public:
 
     void run()
     {
-        fmt::print(stderr, "gimdem-server: {} particles, no fluid, from {:.6g} s\n", system_.particles().count(),
-                   at_.time);
+        events_.say("started",
+                    fmt::format("{} particles, no fluid, from {:.6g} s", system_.particles().count(), at_.time),
+                    {{"version", GIMDEM_VERSION}, {"case", settings_.title}});
         DemLog log(settings_, folder_, mesh_, system_, inlets_, start_);
         try
         {
@@ -79,12 +82,14 @@ public:
         catch (...)
         {
             log.finish(at_);
+            events_.fail("the run ended with an error");
             throw;
         }
         log.write_row(at_);
         if (frame_steps_ > 0) log.write_frame(at_.time);
         log.finish(at_);
         keep();
+        events_.note("finished", interrupted() ? "stopped as asked" : "end time reached", {{"time_s", at_.time}});
     }
 
 private:
@@ -98,6 +103,8 @@ private:
         if (due(frame_steps_)) log.write_frame(at_.time);
         system_.step(dt_);
         at_.time = static_cast<double>(++at_.step) * dt_;
+        speed_.add(coupling::clock_now(), at_.time);
+        events_.progress(at_.time, settings_.run.until, speed_);
         if (at_.step % steps_between_looks == 0) bounds_.remove_leavers(system_);
     }
 
@@ -111,6 +118,8 @@ private:
     static constexpr std::int64_t steps_between_looks = 20;
 
     Case const& settings_;
+    RunEvents events_;
+    output::SpeedMeter speed_;
     std::filesystem::path folder_;
     double dt_;
     std::int64_t last_step_, row_steps_, frame_steps_, checkpoint_steps_;

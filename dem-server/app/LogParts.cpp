@@ -50,4 +50,11 @@ void add_removed_by_cause(DemSystem const& system, output::Summary& summary)
     }
 }
 
+double monitor(coupling::FluidState const& fluid, std::string const& name)
+{
+    for (coupling::Monitor const& m : fluid.monitors)
+        if (m.name == name) return m.value;
+    return coupling::not_known;
+}
+
 }  // namespace gimdem::app

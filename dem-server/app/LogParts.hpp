@@ -3,9 +3,11 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 #include <vector>
 
 #include "engine/DemSystem.hpp"
+#include "gimdem/coupling/Server.hpp"
 #include "output/Summary.hpp"
 
 namespace gimdem::app
@@ -24,5 +26,8 @@ Removed total_removed(DemSystem const& system);
 void add_removed(DemSystem const& system, output::Summary& summary);
 /// One figure for each cause: removed_through_NAME.
 void add_removed_by_cause(DemSystem const& system, output::Summary& summary);
+
+/// What the client tells of its last step under that name; NaN if it does not.
+double monitor(coupling::FluidState const& fluid, std::string const& name);
 
 }  // namespace gimdem::app

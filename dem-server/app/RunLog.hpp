@@ -4,19 +4,16 @@
 
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
+#include "app/BedSeries.hpp"
+#include "app/RunTotals.hpp"
 #include "core/Case.hpp"
-#include "engine/BedMonitors.hpp"
 #include "engine/CoupledEngine.hpp"
 #include "gimdem/coupling/Server.hpp"
 #include "output/Progress.hpp"
 #include "output/ResultSeries.hpp"
 #include "output/Summary.hpp"
-#include "output/TimeSeries.hpp"
 
 namespace gimdem::app
 {
@@ -30,8 +27,13 @@ public:
     /// Before a step: particles and fluid are both at step.time. Writes what is due. Returns the seconds it took.
     double sample(coupling::FluidState const& fluid, CoupledEngine const& engine);
 
-    /// After a step.
+    /// After a step, which may still be repeated: accept() or the next record() decides.
     void record(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine);
+
+    /// The run goes on from an earlier time [s]: rows and frames from there on are written again.
+    void rewind(double time);
+    /// The step that was recorded last stands; if there is none, nothing happens.
+    void accept();
 
     /// The end, however it came: figures to summary.json and the terminal.
     void finish(double bytes);
@@ -40,20 +42,17 @@ public:
     output::Summary& summary() { return summary_; }
 
 private:
-    /// Sums since the last row of the time series.
-    struct Interval
+    /// A step that may still be repeated.
+    struct Pending
     {
-        double duration = 0;
-        Vec3 drag = Vec3::Zero(), pressure = Vec3::Zero(), wall = Vec3::Zero();  ///< impulses [N s]
-        double pressure_drop = 0;                                                ///< time integral [Pa s]
-        double volume_imbalance = 0, momentum_imbalance = 0;                     ///< worst
-        std::int64_t clips = 0;
+        coupling::Step step;
+        StepReport report;
+        double pressure_drop = 0;  ///< [Pa]
+        std::int64_t particle_clips = 0;
     };
 
-    void open_series(coupling::FluidState const& fluid);
-    void write_row(coupling::FluidState const& fluid, CoupledEngine const& engine);
     void write_frame(coupling::FluidState const& fluid, CoupledEngine const& engine);
-    double pressure_drop(coupling::FluidFields const& fluid) const;
+    void add_weights(double inlet_area);
     double mean_diameter() const;
     double gas_weight() const;  ///< of the fluid in the whole mesh [N]
 
@@ -63,25 +62,14 @@ private:
     DemSystem const& system_;
     coupling::FluidProperties fluid_;
     coupling::Schedule schedule_;
-    Vec3 up_;
-    std::vector<PlaneSection> planes_;
-    coupling::Patch const* inlet_ = nullptr;
-    coupling::Patch const* outlet_ = nullptr;
     output::Progress progress_;
     output::Summary summary_;
     output::ResultSeries frames_;
-    std::optional<output::TimeSeries> series_;
+    BedSeries series_;
+    RunTotals totals_;
     std::int64_t rows_ = 0, frame_count_ = 0;
-    Interval interval_;
-    Vec3 last_momentum_ = Vec3::Zero();
-
-    // Over the whole run.
+    std::optional<Pending> pending_;
     std::chrono::steady_clock::time_point start_;
-    std::int64_t steps_ = 0, dem_steps_ = 0, cell_clips_ = 0, particle_clips_ = 0;
-    double first_time_ = 0, last_time_ = 0;
-    double momentum_imbalance_ = 0, volume_imbalance_ = 0, void_fraction_min_ = 1, void_fraction_max_ = 0;
-    coupling::Timings dem_, cfd_;
-    double exchange_ = 0, client_waiting_ = 0;
 };
 
 }  // namespace gimdem::app

@@ -32,6 +32,8 @@ toml::table parse_toml(std::string const& text, std::string const& file)
 /// Paths in a case file are relative to the file; absolute ones do not depend on where they are used.
 void resolve_paths(Case& input)
 {
+    if (!input.coupling.keys.empty() && input.coupling.keys.is_relative())
+        input.coupling.keys = std::filesystem::absolute(input.file.parent_path() / input.coupling.keys);
     for (auto& insertion : input.insertion)
         if (!insertion.file.empty() && insertion.file.is_relative())
             insertion.file = std::filesystem::absolute(input.file.parent_path() / insertion.file);

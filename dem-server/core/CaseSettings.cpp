@@ -54,13 +54,26 @@ Fields<CouplingSettings> const& settings_of(CouplingSettings const&)
 {
     using S = CouplingSettings;
     static Fields<S> const fields = {
-        optional("schedule",     &S::schedule,     "", one_of({"serial", "overlapped"}), "\"serial\"",
-                 "serial: one solver waits for the other; overlapped: both compute at once"),
+        optional("schedule",     &S::schedule,     "", one_of({"serial", "overlapped", "iterated"}), "\"serial\"",
+                 "serial: one solver waits for the other; overlapped: both compute at once; iterated: serial, and each "
+                 "step repeated until fluid and particles agree at its end"),
         optional("endpoint",     &S::endpoint,     "", endpoint(), "\"tcp://127.0.0.1:5570\"",
                  "where the solvers meet; ipc is a private socket file"),
+        optional("keys",         &S::keys,         "", anything(), "\"../keys\"",
+                 "folder made by ./gimdem keys: encrypts, and lets the endpoint be of any machine"),
         optional("timeout",      &S::timeout,      "s", above(0), "30.0", "a peer silent for this long is dead"),
         optional("connect_time", &S::connect_time, "s", above(0), "120.0",
                  "how long to wait for the fluid solver to appear"),
+        optional("fluid_steps",  &S::fluid_steps,  "", between(0, 1001), "1",
+                 "the solvers meet after so many time steps of the fluid; theory.md (C.13)"),
+        optional("tolerance",    &S::tolerance,    "", between(0, 1), "1e-4",
+                 "schedule iterated: relative residual at which a step is accepted; theory.md (C.18)"),
+        optional("max_passes",   &S::max_passes,   "", between(0, 10001), "20",
+                 "schedule iterated: how often a step is computed at most"),
+        optional("relaxation",   &S::relaxation,   "", above(0), "0.5",
+                 "schedule iterated: factor of the first pass; those that follow have Aitken's"),
+        optional("must_converge", &S::must_converge, "", anything(), "false",
+                 "schedule iterated: a step that does not converge ends the run, else it is told and accepted"),
     };
     return fields;
 }

@@ -9,6 +9,7 @@
 
 #include "core/Error.hpp"
 #include "engine/InletFlow.hpp"
+#include "engine/StepMemory.hpp"
 #include "exec/Reduce.hpp"
 
 namespace gimdem
@@ -59,6 +60,7 @@ CoupledEngine::CoupledEngine(Case const& settings, exec::Execution execution, Po
     : settings_(settings),
       execution_(execution),
       mesh_(mesh),
+      mesh_hash_(mesh_hash(mesh.topology())),
       system_(system),
       forces_(execution, settings.fluid_forces, settings.mapping.void_fraction_minimum, fluid),
       mapper_(execution, mesh, settings.mapping),
@@ -105,7 +107,7 @@ void CoupledEngine::sum_into_cells()
 std::int64_t CoupledEngine::particle_clips() const
 {
     DeviceDem* const device = system_.device();
-    return device == nullptr ? forces_.clipped() : device->clipped();
+    return (device == nullptr ? forces_.clipped() : device->clipped()) - clips_given_up_;
 }
 
 StepReport CoupledEngine::map_initial_state()

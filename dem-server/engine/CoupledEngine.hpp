@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/Case.hpp"
 #include "engine/DemSystem.hpp"
+#include "engine/MappedState.hpp"
 #include "engine/device/DeviceDem.hpp"
 #include "gimdem/coupling/Types.hpp"
 #include "mapping/Mapper.hpp"
@@ -30,12 +32,15 @@ struct StepReport
     coupling::Timings timings;          ///< compute: DEM, mapping
 };
 
+struct StepMemory;
+
 class CoupledEngine
 {
 public:
     /// Takes particles that are at rest in the mesh. Throws UserError for a particle outside the mesh.
     CoupledEngine(Case const& settings, exec::Execution execution, PolyMesh const& mesh, WallGeometry const& walls,
                   coupling::FluidProperties const& fluid, DemSystem& system);
+    ~CoupledEngine();
 
     /// The solid at t = 0, with the drag of particles in a fluid at rest.
     StepReport map_initial_state();
@@ -44,11 +49,24 @@ public:
     /// whole number of equal DEM steps that are no longer than [dem] time_step.
     StepReport advance(coupling::Step const& step, coupling::FluidFields const& fluid);
 
+    /// Keeps the state between two steps, for go_back().
+    void remember();
+    /// Puts it back, to the bit, with inlets and counts; fields() stay those of the step that is given up. @pre
+    /// remember()
+    void go_back();
+
     /// The solid of the last step; spans live until the next one.
     coupling::SolidFields fields() const;
 
     /// Particles that come during the run; `inlets` outlives the engine.
     void set_inlets(std::vector<Inlet>& inlets) { inlets_ = &inlets; }
+
+    /// For checkpoints: what the last step left on the mesh.
+    MappedState mapped() const;
+    /// Before another state is put into the system: what is known of the particles so far is of no use.
+    void forget_particles();
+    /// Goes on with what a checkpoint had on the mesh, if that was this mesh; else maps the particles as at t = 0.
+    void resume(MappedState const& mapped);
 
     /// For checkpoints; null unless weights are reused.
     WeightReuse* weight_reuse() { return mapper_.reuse(); }
@@ -71,6 +89,7 @@ private:
     Case const& settings_;
     exec::Execution execution_;
     PolyMesh const& mesh_;
+    std::string mesh_hash_;
     DemSystem& system_;
     FluidForces forces_;
     Mapper mapper_;
@@ -78,6 +97,8 @@ private:
     exec::Buffer<std::uint8_t> wall_faces_;
     std::vector<Inlet>* inlets_ = nullptr;
     CellSums sums_;
+    std::unique_ptr<StepMemory> memory_;
+    std::int64_t clips_given_up_ = 0;  ///< counted in steps that were repeated
     exec::Buffer<double> void_fraction_, momentum_source_, drag_coefficient_, drag_momentum_;
 };
 

@@ -45,6 +45,7 @@ using RemovedByCause = std::map<std::string, Removed>;
 inline char const* const through_wall = "through the wall ";
 
 class DeviceDem;
+struct DemMemory;
 
 /// Where the execution names a device, the state lives there. The host's copy is brought up to date when it is asked
 /// for, and goes back before the next step where it could have been changed: prefer the const accessors.
@@ -88,6 +89,11 @@ public:
     /// springs were replaced by those of a state: builds the same list, and goes on from it as the state would have,
     /// to the bit. `wall_force`: what total_force() of the walls was [N].
     void resume(Vec3 const& wall_force);
+
+    /// Keeps all that the steps to come change.
+    void remember(DemMemory& memory);
+    /// Puts it back, to the bit.
+    void go_back(DemMemory const& memory);
 
     RemovedByCause& removed() { return removed_; }
     RemovedByCause const& removed() const { return removed_; }

@@ -202,6 +202,29 @@ struct QuadsOfOctet
     }
 };
 
+/// Lane i of rows[j] <- lane j of rows[i].
+inline void transpose(Octet (&rows)[octet])
+{
+    using detail::Eight;
+    Eight pairs[octet], fours[octet];
+    for (int j = 0; j < octet; j += 2)
+    {
+        pairs[j] = __builtin_shufflevector(rows[j].v, rows[j + 1].v, 0, 8, 2, 10, 4, 12, 6, 14);
+        pairs[j + 1] = __builtin_shufflevector(rows[j].v, rows[j + 1].v, 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    for (int j = 0; j < octet; j += 4)
+        for (int k = j; k < j + 2; ++k)
+        {
+            fours[k] = __builtin_shufflevector(pairs[k], pairs[k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+            fours[k + 2] = __builtin_shufflevector(pairs[k], pairs[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    for (int k = 0; k < octet / 2; ++k)
+    {
+        rows[k].v = __builtin_shufflevector(fours[k], fours[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+        rows[k + 4].v = __builtin_shufflevector(fours[k], fours[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+}
+
 /// values[place[i]] for each lane.
 inline OctetOfQuads load(Quad const* values, std::int32_t const* place)
 {

@@ -48,6 +48,19 @@ inline void keep(LaneBits chosen, std::int32_t const* from, std::int32_t* to)
 #endif
 }
 
+/// Reads the first `count` lanes, up to all, and nothing behind them; the others are 0.
+inline Octet load_first(double const* from, int count)
+{
+#ifdef __AVX512F__
+    return {_mm512_maskz_loadu_pd(static_cast<__mmask8>((1u << count) - 1), from)};
+#else
+    Octet out = Octet::Constant(0);
+    for (int lane = 0; lane < count; ++lane)
+        out[lane] = from[lane];
+    return out;
+#endif
+}
+
 /// Writes the first `count` lanes, up to all, and nothing behind them.
 inline void store_first(Octet const& from, int count, double* to)
 {
@@ -57,6 +70,12 @@ inline void store_first(Octet const& from, int count, double* to)
     for (int lane = 0; lane < count; ++lane)
         to[lane] = from[lane];
 #endif
+}
+
+/// Halves of the lanes are added until one is left: always in this order.
+inline double sum_of_lanes(Octet const& x)
+{
+    return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
 }
 
 /// Lanes whose number is at least `low`.

@@ -1,70 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapping/GaussianTable.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 
-#include "mapping/GaussianIntegral.hpp"
+#include "mapping/TabulatedIntegral.hpp"
 
 namespace gimdem
 {
-
-namespace
-{
-
-constexpr int intervals = GaussianTableView::intervals;
-constexpr int terms = GaussianTableView::degree + 1;
-using Terms = Eigen::Matrix<long double, terms, 1>;
-
-/// I / V_p of one radius and one volume over t, where mu^2 = narrow^2 (t^2 + crossing2).
-struct TabulatedIntegral
-{
-    GaussianIntegral integral;
-    double narrow;     ///< deviation of the narrower Gaussian [m]
-    double crossing2;  ///< (mu / narrow)^2 where the two begin to cross: 4 (s^2 - 1) ln s
-
-    TabulatedIntegral(double radius, double volume, double fixed_coefficient)
-    {
-        double const log_ratio = std::log(volume / sphere_volume(radius));
-        double const log_s = std::abs(log_ratio) / 3;
-        integral = {radius, log_ratio, fixed_coefficient > 0 ? fixed_coefficient : tuned_coefficient(log_ratio)};
-        narrow = integral.coefficient * radius * std::exp(std::min(0.0, log_ratio / 3));
-        crossing2 = 4 * std::expm1(2 * log_s) * log_s;
-    }
-
-    double operator()(double t) const { return integral(narrow * std::sqrt(t * t + crossing2)); }
-
-    /// The t beyond which the integral is nothing.
-    double end() const
-    {
-        double low = 0, high = 1;
-        while ((*this)(high) > 1e-18)
-            high *= 2;
-        while (high - low > 1e-3 * high)
-            ((*this)((low + high) / 2) > 1e-18 ? low : high) = (low + high) / 2;
-        return high;
-    }
-};
-
-/// Chebyshev's points of [-1/2, 1/2].
-long double node(int k)
-{
-    return std::cos(std::numbers::pi_v<long double> * (k + 0.5L) / terms) / 2;
-}
-
-/// Maps a function's values at the nodes to the coefficients of the polynomial through them.
-Eigen::Matrix<long double, terms, terms> interpolation()
-{
-    Eigen::Matrix<long double, terms, terms> powers;
-    for (int k = 0; k < terms; ++k)
-        for (int j = 0; j < terms; ++j)
-            powers(k, j) = std::pow(node(k), static_cast<long double>(j));
-    return powers.inverse();
-}
-
-}  // namespace
 
 GaussianTables::GaussianTables(PolyMesh const& mesh, double fixed_coefficient) : fixed_coefficient_(fixed_coefficient)
 {
@@ -124,31 +67,26 @@ void GaussianTables::add_row(double radius)
 
 double GaussianTables::add_table(double radius, double volume)
 {
-    static auto const to_coefficients = interpolation();
+    constexpr int intervals = GaussianTableView::intervals;
+    using Fit = ChebyshevFit<GaussianTableView::degree + 1>;
     TabulatedIntegral const pair(radius, volume, fixed_coefficient_);
-    double const h = pair.end() / intervals;
+    double const h = pair.end(1e-18) / intervals;
     std::int64_t const place = coefficients_.size();
     coefficients_.resize(place + GaussianTableView::length);
     double* const table = coefficients_.view().data + place;
     std::fill_n(table, GaussianTableView::length, 0.0);
     for (int i = 0; i < intervals; ++i)
     {
-        Terms values;
-        for (int k = 0; k < terms; ++k)
-            values[k] = pair(h * static_cast<double>(i + 0.5L + node(k)));
-        Terms const c = to_coefficients * values;
-        for (int j = 0; j < terms; ++j)
+        Fit::Terms values;
+        for (int k = 0; k < values.size(); ++k)
+            values[k] = pair(h * static_cast<double>(i + 0.5L + Fit::node(k)));
+        Fit::Terms const c = Fit::coefficients(values);
+        for (int j = 0; j < c.size(); ++j)
             table[j * GaussianTableView::stride + i] = static_cast<double>(c[j]);
 
         // The polynomial strays farthest from the function at its ends, next to the outermost nodes.
-        long double low = 0, high = 0;
-        for (int j = terms - 1; j >= 0; --j)
-        {
-            low = low * -0.5L + c[j];
-            high = high * 0.5L + c[j];
-        }
-        double const error = std::max(std::abs(static_cast<double>(low) - pair(h * i)),
-                                      std::abs(static_cast<double>(high) - pair(h * (i + 1))));
+        double const error = std::max(std::abs(static_cast<double>(Fit::value(c, -0.5L)) - pair(h * i)),
+                                      std::abs(static_cast<double>(Fit::value(c, 0.5L)) - pair(h * (i + 1))));
         usable_ = usable_ && error < error_bound;
     }
     return h;

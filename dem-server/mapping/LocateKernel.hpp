@@ -19,7 +19,9 @@ struct LocateKernel
     std::int32_t* cell_of;
     std::uint8_t* status;
 
-    GIMDEM_HD void operator()(std::int64_t p) const
+    GIMDEM_HD void operator()(std::int64_t p) const { locate(p); }
+
+    GIMDEM_HD Location locate(std::int64_t p) const
     {
         Quad const x = position[p];
         Location const at = find(cell_of[p], x.xyz());
@@ -28,6 +30,7 @@ struct LocateKernel
         bool const between_cells = at.face >= 0 && at.face < find.mesh.internal_face_count;
         bool const outside = at.face >= 0 && !between_cells && !(inside_a_wall && at.outside < x.w);
         status[p] = static_cast<std::uint8_t>(outside ? (inside_a_wall ? 2 : 1) : 0);
+        return at;
     }
 };
 

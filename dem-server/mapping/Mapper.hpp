@@ -15,6 +15,7 @@
 #include "exec/Sort.hpp"
 #include "mapping/Method.hpp"
 #include "mapping/RowLayout.hpp"
+#include "mapping/RowSums.hpp"
 #include "mapping/Share.hpp"
 #include "mapping/WeightReuse.hpp"
 #include "mesh/BoxGrid.hpp"
@@ -58,6 +59,7 @@ public:
     void take_cells(exec::Buffer<std::int32_t> cells)
     {
         cell_of_ = std::move(cells);
+        sure_.resize(0);
         left_.clear();
     }
 
@@ -80,26 +82,23 @@ public:
 
 private:
     void find_reverse_slots();
-    void lay_out_rows();
-    void find_receivers();
     WeightRows rows() const;
 
     exec::Execution execution_;
     PolyMesh const& mesh_;
     std::unique_ptr<Method> method_;
     BoxGrid cell_grid_;
+    exec::Buffer<std::int32_t> cell_order_;  ///< in which cells are worked on
     /// For entry k of layers: place of the row's cell in the row of cells[k].
     exec::Buffer<std::int32_t> reverse_slot_;
     exec::Buffer<std::int32_t> cell_of_;
+    exec::Buffer<Quad> sure_;  ///< as LocateMovedKernel::sure
     exec::Groups by_cell_;
     std::vector<Leaver> left_;
     RowLayout layout_;
     exec::Buffer<double> weights_;
     std::optional<WeightReuse> reuse_;
-    exec::Buffer<std::int32_t> receivers_;    ///< cells that may get a share
-    exec::Buffer<std::uint8_t> receives_;     ///< 1 for those
-    exec::Buffer<std::int64_t> first_share_;  ///< -1 for a cell without particles
-    exec::Buffer<Share> shares_;
+    RowSums cell_sums_;
 };
 
 }  // namespace gimdem

@@ -11,6 +11,7 @@
 #include "core/Case.hpp"
 #include "exec/Buffer.hpp"
 #include "exec/ForEach.hpp"
+#include "exec/Selection.hpp"
 #include "mapping/Share.hpp"
 #include "mesh/PolyMesh.hpp"
 #include "particles/ParticleState.hpp"
@@ -59,16 +60,27 @@ public:
 std::unique_ptr<Method> make_method(MappingSettings const& settings, exec::Execution const& execution,
                                     PolyMesh const& mesh);
 
-/// Scales a row so that it sums to one. Where nothing is found the own cell, the first, takes all.
-GIMDEM_HD inline void normalise(double* w, int length)
+/// Lanes of the eight numbers from k on that a row of `length` numbers has.
+inline int lanes_left(int length, int k)
 {
-    double total = 0;
-    for (int k = 0; k < length; ++k)
-        total += w[k];
+    return length - k < exec::octet ? length - k : exec::octet;
+}
+
+/// Scales a row so that it sums to one. Where nothing is found the own cell, the first, takes all.
+inline void normalise(double* w, int length)
+{
+    using exec::Octet;
+    Octet sums = Octet::Constant(0);
+    for (int k = 0; k < length; k += exec::octet)
+        sums = sums + exec::load_first(w + k, lanes_left(length, k));
+    double total = sum_of_lanes(sums);
     if (!(total > 0)) w[0] = total = 1;
-    double const per_total = 1 / total;
-    for (int k = 0; k < length; ++k)
-        w[k] *= per_total;
+    Octet const per_total = Octet::Constant(1 / total);
+    for (int k = 0; k < length; k += exec::octet)
+    {
+        int const lanes = lanes_left(length, k);
+        exec::store_first(per_total * exec::load_first(w + k, lanes), lanes, w + k);
+    }
 }
 
 /// Rows of the particles of the i-th occupied cell, by a law(particle, candidates, their number, shares).
@@ -81,7 +93,7 @@ struct RowKernel
     Law law;
     double* weights;
 
-    GIMDEM_HD void operator()(std::int64_t i) const
+    void operator()(std::int64_t i) const
     {
         std::int32_t const c = occupied[i];
         std::int32_t const* const candidates = rows.layer_cells + rows.layer_offsets[c];

@@ -118,9 +118,10 @@ void WeightReuse::compute_missing(exec::Execution const& execution, Method& meth
     key_.resize(row_.size());
     exec::for_each(execution, row_.size(),
                    [key = key_.view(), row = row_.view(), cell = rows.cell_of.view(),
-                    none = rows.cell_count](std::int64_t p) { key[p] = row[p] < 0 ? cell[p] : none; });
-    exec::group_by_key(execution, key_.host(), rows.cell_count + 1, missing_by_cell_);
-    missing_layout_.lay_out(method.candidates(), missing_by_cell_, rows.cell_count);
+                    none = static_cast<std::int32_t>(rows.cell_order.size())](std::int64_t p)
+                   { key[p] = row[p] < 0 ? cell[p] : none; });
+    exec::group_by_key(execution, key_.host(), rows.cell_order.size() + 1, missing_by_cell_);
+    missing_layout_.lay_out(method.candidates(), missing_by_cell_, rows.cell_order);
     missing_weights_.resize(missing_layout_.weight_count);
     method.compute_weights({execution, reference_.particles, missing_layout_.occupied,
                             missing_layout_.rows(method.candidates(), missing_by_cell_), missing_weights_.view().data});

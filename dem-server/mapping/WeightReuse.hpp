@@ -44,7 +44,7 @@ public:
     /// What is to be filled.
     struct Rows
     {
-        std::int32_t cell_count;
+        exec::Buffer<std::int32_t> const& cell_order;  ///< of all cells
         exec::Buffer<std::int32_t> const& cell_of;
         exec::Groups const& by_cell;
         RowLayout const& layout;

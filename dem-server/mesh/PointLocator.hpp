@@ -16,10 +16,11 @@ namespace gimdem
 /// Where a search ended.
 struct Location
 {
-    std::int32_t cell;  ///< the cell that holds the point or, outside the mesh, the last one before the boundary
-    double outside;     ///< how far the point is outside of that cell [m]; <= 0 inside
-    std::int32_t face;  ///< the face it is outside of; -1 inside
-    bool is_certain;    ///< it is behind all faces by more than they are warped: no other cell holds it
+    std::int32_t cell;         ///< the cell that holds the point or, outside the mesh, the last one before the boundary
+    double outside;            ///< how far the point is outside of that cell [m]; <= 0 inside
+    std::int32_t face;         ///< the face it is outside of; -1 inside
+    bool is_certain;           ///< it is behind all faces by more than they are warped: no other cell holds it
+    bool is_enclosed = false;  ///< not certain, but found to be enclosed by the cell's faces
 };
 
 /// Walks from a start cell through the face that the point is farthest outside of. A walk that meets the boundary goes
@@ -90,7 +91,7 @@ struct CellFinder
         if (here.is_certain) return here;
         std::int32_t cell = near_one_face(here.cell, x);
         if (cell < 0) cell = enclosing_cell(here.cell, x);
-        if (cell >= 0) return {cell, 0, -1, false};
+        if (cell >= 0) return {cell, 0, -1, false, true};
         if (here.face < 0 || last < 0) return here;
         Location const other = walk(grid.near(x), x);
         return other.outside < here.outside ? other : here;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/Text.hpp"
+
 namespace gimdem::output
 {
 
@@ -24,16 +26,6 @@ std::string formatted(char const* format, Values... values)
     char buffer[128];
     std::snprintf(buffer, sizeof buffer, format, values...);
     return buffer;
-}
-
-/// "45 s", "3 min 20 s", "2 h 05 min"
-std::string duration_text(double seconds)
-{
-    if (!std::isfinite(seconds) || seconds > 1e8) return "?";
-    auto const whole = static_cast<long>(std::max(0.0, std::ceil(seconds)));
-    if (whole < 60) return formatted("%ld s", whole);
-    if (whole < 3600) return formatted("%ld min %02ld s", whole / 60, whole % 60);
-    return formatted("%ld h %02ld min", whole / 3600, whole % 3600 / 60);
 }
 
 /// `  text`, or nothing where the value is unknown.

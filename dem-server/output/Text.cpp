@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "output/Text.hpp"
 
-#include <cstdio>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace gimdem::output
 {
@@ -30,21 +33,13 @@ std::string xml_escaped(std::string_view text)
     return escaped;
 }
 
-std::string json_quoted(std::string_view text)
+std::string duration_text(double seconds)
 {
-    std::string quoted = "\"";
-    for (char const c : text)
-        if (c == '"' || c == '\\')
-            (quoted += '\\') += c;
-        else if (static_cast<unsigned char>(c) < 0x20)
-        {
-            char code[8];
-            std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
-            quoted += code;
-        }
-        else
-            quoted += c;
-    return quoted += '"';
+    if (!std::isfinite(seconds) || seconds > 1e8) return "?";
+    auto const whole = static_cast<long>(std::max(0.0, std::ceil(seconds)));
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+    return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
 }  // namespace gimdem::output

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "gimdem/coupling/Json.hpp"
+
 namespace gimdem::output
 {
 
@@ -19,7 +21,9 @@ inline std::string to_text(double value)
 /// With the characters that XML gives a meaning replaced.
 std::string xml_escaped(std::string_view text);
 
-/// As a JSON string, with its quotes.
-std::string json_quoted(std::string_view text);
+using coupling::json_quoted;
+
+/// "45 s", "3 min 20 s", "2 h 05 min", "?" for what is not finite.
+std::string duration_text(double seconds);
 
 }  // namespace gimdem::output

@@ -43,6 +43,19 @@ void WallContacts::add_forces(ParticleState& particles, double dt)
         [](Quad const& a, Quad const& b) { return a + b; });
 }
 
+void WallContacts::go_back(Memory const& memory)
+{
+    time_ = memory.time;
+    built_time_ = memory.built_time;
+    poses_ = memory.poses;
+    built_at_ = memory.built_at;
+    low_ = memory.low;
+    high_ = memory.high;
+    pairs_ = memory.pairs;
+    force_ = memory.force;
+    total_force_ = memory.total_force;
+}
+
 WallPairsView WallContacts::pairs_view()
 {
     return {pairs_.offsets.view().data, pairs_.particle.view().data, pairs_.plane.view().data, pairs_.row.view().data,

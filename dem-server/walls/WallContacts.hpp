@@ -65,6 +65,19 @@ public:
     WallPairs const& pairs() const { return pairs_; }
     std::int32_t plane_count() const { return walls_.plane_count(); }
 
+    /// All that changes from step to step.
+    struct Memory
+    {
+        double time = 0, built_time = 0;
+        exec::Buffer<WallPose> poses, built_at;
+        Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+        WallPairs pairs;
+        exec::Buffer<Quad> force;
+        Quad total_force{0, 0, 0, 0};
+    };
+    Memory memory() const { return {time_, built_time_, poses_, built_at_, low_, high_, pairs_, force_, total_force_}; }
+    void go_back(Memory const& memory);
+
     /// Force of the walls on a particle in the last add_forces [N]; w: number of contacts.
     Quad force_on(std::int64_t particle) const;
 

@@ -73,9 +73,11 @@ struct PlainExact
 template <class Shares>
 void plain_weights(Shares const& share, Quad const& particle, std::int32_t const* cells, int count, double* w)
 {
+    double total = 0;
     for (int k = 0; k < count; ++k)
-        w[k] = share(particle, cells[k]);
-    normalise(w, count);
+        total += w[k] = share(particle, cells[k]);
+    for (int k = 0; k < count; ++k)
+        w[k] /= total;
 }
 
 }  // namespace gimdem::test

@@ -10,7 +10,9 @@
 
 #include "couplingClient.H"
 #include "polyMeshArrays.H"
+#include "fluidCheckpoint.H"
 #include "fvc.H"
+#include "StringStream.H"
 #include "Pstream.H"
 
 #include <random>
@@ -69,7 +71,8 @@ static Rank thisRank()
 ClientOptions Foam::couplingClient::options
 (
     const Time& runTime,
-    const argList& args
+    const argList& args,
+    const std::optional<ResumePoint>& resumed
 )
 {
     const IOdictionary dict
@@ -89,16 +92,22 @@ ClientOptions Foam::couplingClient::options
 
     ClientOptions o;
     o.name = "gimdemFoam";
+    o.resume = resumed;
     o.endpoint =
         args.found("endpoint")
       ? args.opt<string>("endpoint")
       : dict.get<string>("endpoint");
+    o.keys =
+        args.found("keys")
+      ? args.opt<string>("keys")
+      : dict.getOrDefault<string>("keys", "");
     o.timeout = dict.getOrDefault<scalar>("timeout", o.timeout);
     o.connect_time = dict.getOrDefault<scalar>("connectTime", o.connect_time);
     o.step_time = dict.getOrDefault<scalar>("stepTime", o.step_time);
     o.shared_memory =
         dict.getOrDefault<bool>("sharedMemory", o.shared_memory);
 
+    o.iterates = true;
     o.rank = thisRank();
 
     const word schedule =
@@ -114,12 +123,16 @@ ClientOptions Foam::couplingClient::options
     {
         o.schedule = Schedule::overlapped;
     }
+    else if (schedule == "iterated")
+    {
+        o.schedule = Schedule::iterated;
+    }
     else if (schedule != "server")
     {
         FatalErrorInFunction
             << "schedule " << schedule << " of constant/couplingProperties"
-            << " or the command line is unknown; say server, serial or"
-            << " overlapped"
+            << " or the command line is unknown; say server, serial, overlapped"
+            << " or iterated"
             << exit(FatalError);
     }
 
@@ -140,19 +153,32 @@ void Foam::couplingClient::addOptions()
     );
     argList::addOption
     (
+        "keys",
+        "folder",
+        "of keys that the server knows (overrides constant/couplingProperties)"
+    );
+    argList::addOption
+    (
         "schedule",
         "word",
-        "server, serial or overlapped (overrides constant/couplingProperties)"
+        "server, serial, overlapped or iterated"
+        " (overrides constant/couplingProperties)"
     );
 }
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::couplingClient::couplingClient(const Time& runTime, const argList& args)
+Foam::couplingClient::couplingClient
+(
+    const Time& runTime,
+    const argList& args,
+    const std::optional<ResumePoint>& resumed
+)
 :
-    options_(options(runTime, args)),
-    client_(options_)
+    options_(options(runTime, args, resumed)),
+    client_(options_),
+    completeStep_(resumed ? resumed->step : 0)
 {}
 
 
@@ -191,15 +217,52 @@ void Foam::couplingClient::connect
 
     Info<< "Connected to " << welcome.server.c_str() << ": "
         << welcome.title.c_str() << nl
-        << "    schedule "
-        << (welcome.schedule == Schedule::serial ? "serial" : "overlapped")
-        << ", end time " << welcome.end_time << " s" << nl << endl;
+        << "    schedule " << name_of(welcome.schedule)
+        << ", end time " << welcome.end_time << " s";
+    if (welcome.fluid_steps > 1)
+    {
+        Info<< ", " << welcome.fluid_steps << " fluid steps to a coupling step";
+    }
+    Info<< nl << endl;
+
+    if (welcome.schedule != Schedule::iterated)
+    {
+        return;
+    }
+    if (welcome.fluid_steps > 1)
+    {
+        FatalErrorInFunction
+            << "schedule iterated with " << welcome.fluid_steps << " fluid steps"
+            << " to a coupling step (this solver can repeat one step only);"
+            << " leave out fluid_steps, or choose another schedule"
+            << exit(FatalError);
+    }
+    fixedPoint_.reset
+    (
+        new FluidFixedPoint
+        (
+            welcome.iteration,
+            [](Span<double> numbers)
+            {
+                for (double& number : numbers)
+                {
+                    reduce(number, sumOp<scalar>());
+                }
+            }
+        )
+    );
 }
 
 
 Foam::scalar Foam::couplingClient::endTime() const
 {
     return client_.welcome().end_time;
+}
+
+
+Foam::label Foam::couplingClient::fluidSteps() const
+{
+    return client_.welcome().fluid_steps;
 }
 
 
@@ -272,6 +335,11 @@ void Foam::couplingClient::beginStep(const scalar t, const scalar deltaT)
     step_.dt = deltaT;
 
     client_.begin_step(step_, fluid_, monitors_);
+
+    if (fixedPoint_)
+    {
+        fixedPoint_->start(fluid_);
+    }
 }
 
 
@@ -279,7 +347,8 @@ void Foam::couplingClient::getSolid
 (
     volScalarField& alpha,
     volScalarField& K,
-    volVectorField& M
+    volVectorField& M,
+    const label stepsLeft
 ) const
 {
     const SolidFields& solid = client_.solid();
@@ -290,16 +359,18 @@ void Foam::couplingClient::getSolid
 
     forAll(a, celli)
     {
-        a[celli] = solid.void_fraction[celli];
+        const scalar end = solid.void_fraction[celli];
 
-        if (!(a[celli] > 0 && a[celli] < 1 + 1e-6))
+        if (!(end > 0 && end < 1 + 1e-6))
         {
             FatalErrorInFunction
-                << "the server sent void fraction " << a[celli] << " for cell "
+                << "the server sent void fraction " << end << " for cell "
                 << celli << " at " << alpha.mesh().C()[celli] << " m (the fluid"
                 << " needs 0 < alpha <= 1); check the server's mapping"
                 << exit(FatalError);
         }
+
+        a[celli] = stepsLeft > 1 ? a[celli] + (end - a[celli])/stepsLeft : end;
     }
 
     if (solid.drag_coefficient.empty())
@@ -331,7 +402,56 @@ void Foam::couplingClient::endStep(const scalar compute, const scalar output)
     timings.compute = compute;
     timings.output = output;
 
-    client_.end_step(timings);
+    client_.end_step(timings, fixedPoint_ ? fixedPoint_->residual() : 0);
+}
+
+
+bool Foam::couplingClient::iterate()
+{
+    if (!fixedPoint_)
+    {
+        return false;
+    }
+    if (fixedPoint_->improve(fluid_))
+    {
+        client_.iterate_step(fixedPoint_->guess(), fixedPoint_->residual());
+        return true;
+    }
+    if (fixedPoint_->converged())
+    {
+        return false;
+    }
+
+    OStringStream what;
+    what<< "fluid and particles did not agree in " << fixedPoint_->passes()
+        << " passes of step " << label(step_.number) << " at " << step_.time
+        << " s: residual " << fixedPoint_->residual() << ", tolerance "
+        << client_.welcome().iteration.tolerance;
+
+    if (client_.welcome().iteration.must_converge)
+    {
+        FatalErrorInFunction
+            << what.str().c_str() << "; allow more passes, a larger tolerance"
+            << " or a shorter time step" << exit(FatalError);
+    }
+    Info<< "Note: " << what.str().c_str() << endl;
+
+    return false;
+}
+
+
+void Foam::couplingClient::saveCheckpoint(resumableTime& runTime)
+{
+    if (client_.welcome().saves_checkpoints)
+    {
+        const SavedCheckpoint saved
+        (
+            client_.save_checkpoint(runTime.value(), completeStep_)
+        );
+        fluidCheckpoint::complete(runTime, saved);
+        completeStep_ = saved.step;
+    }
+    runTime.purge();
 }
 
 

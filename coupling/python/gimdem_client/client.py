@@ -11,6 +11,7 @@ from typing import Any, NoReturn, Optional
 from . import messages
 from .channel import Channel, Ending, Letter
 from .errors import CouplingError, Fault
+from .record import StepRecord
 from .types import (FLUID_FIELDS, SCHEDULES, SOLID_FIELDS, ClientOptions, ExchangeTimes, FluidFields, FluidProperties,
                     Mesh, Monitor, SolidFields, Step, Timings, Welcome)
 from .wire import MAJOR, MINOR, Envelope
@@ -47,6 +48,7 @@ class Client:
         self._previous = Timings()
         self._last_fault = ""
         self._sent_at = 0.0
+        self._record = StepRecord()
         self._channel: Optional[Channel] = None
 
     def __enter__(self) -> Client:
@@ -69,11 +71,14 @@ class Client:
         hello.wants.extend(self._wants)
         hello.schedule = SCHEDULES.get(options.schedule or "", 0)
         hello.timeout = options.timeout
+        self._record.stamp(hello)
+        self._sent_at = time.monotonic()
         self._send(envelope)
         if not self._channel.contact.wait(options.connect_time):
             self._fail(Fault.ENDPOINT, f"no server has answered at {options.endpoint} within {options.connect_time:g} s "
                        "(none runs there, or it is not a gimdem server); start gimdem-server with the same endpoint")
-        told = self._receive("welcome")[0]
+        told, _, arrival = self._receive("welcome")
+        self._record.heard(told.welcome, self._sent_at, arrival)
         self._session = told.session
         self._advance("welcomed")
         self.welcome = self._read_welcome(told.welcome)
@@ -106,26 +111,32 @@ class Client:
             state.monitors.add(name=monitor.name, value=monitor.value, unit=monitor.unit)
         state.previous.compute, state.previous.output = self._previous.compute, self._previous.output
         state.exchange, state.waiting = self.exchange_times.exchange, self.exchange_times.waiting
+        self._record.put_into(state.previous_times)
         needs = {name: FLUID_FIELDS[name] for name in FLUID_FIELDS if name in self.welcome.needs}
         messages.add_fields(envelope, frames, fluid, needs, self._cell_count)
         self._step = step.number
         self._advance("waiting" if self._is_serial() else "overlapping")
-        self._sent_at = entered
         self._send(envelope, frames)
+        self._sent_at = sent = time.monotonic()
+        self._record.begun(step.number, entered)
         if self._is_serial():
-            busy, _ = self._take_solid()
+            busy, arrival = self._take_solid()
             self._advance("solving")
-            self._count(entered, busy)
+            waiting = self._count(entered, busy)
+            self._record.resumed(time.monotonic(), waiting, 0.5 * (sent + arrival))
+        else:
+            self._record.resumed(sent)
         return self.solid
 
     def end_step(self, timings: Timings = Timings()) -> None:
         entered = time.monotonic()
         self._require("end_step")
-        self._previous = timings
+        self._previous, waiting = timings, 0.0
         if not self._is_serial():
             busy, arrival = self._take_solid()
             # What the server computed before we came to wait cost us nothing.
-            self._count(entered, min(busy, max(0.0, arrival - entered)))
+            waiting = self._count(entered, min(busy, max(0.0, arrival - entered)))
+        self._record.ended(entered, time.monotonic(), waiting)
         self._advance("ready")
 
     def finish(self, reason: str) -> None:
@@ -134,6 +145,9 @@ class Client:
         if self._state not in ("created", "finished"):
             envelope = Envelope()
             envelope.goodbye.reason = reason
+            last = envelope.goodbye.last_step
+            self._record.put_into(last.times)
+            last.compute, last.output = self._previous.compute, self._previous.output
             self._send(envelope)
         self._advance("finished")
         self._close()
@@ -169,15 +183,18 @@ class Client:
             self._fail(Fault.PROTOCOL, f"SolidState from {self._peer()} is unusable: {error} ({self._here()}); the two "
                        "programs do not fit together, see docs/protocol.md")
         state = envelope.solid_state
+        self._record.heard(state, self._sent_at, arrival)
         self.stop_request = state.stop_reason if state.stop_requested else None
         return state.busy_time, arrival
 
-    def _count(self, entered: float, busy: float) -> None:
+    def _count(self, entered: float, busy: float) -> float:
+        """Returns how long we waited [s]."""
         call = time.monotonic() - entered
         waiting = min(call, busy)
         self.exchange_times.waiting += waiting
         self.exchange_times.exchange += call - waiting
         self.exchange_times.bytes = float(self._channel.bytes)
+        return waiting
 
     def _receive(self, kind: str) -> Letter:
         """The next message, which must be of that kind."""

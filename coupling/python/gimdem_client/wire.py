@@ -52,4 +52,4 @@ Error = error_pb2.Error
 F64 = fields_pb2.ELEMENT_TYPE_F64
 I32 = fields_pb2.ELEMENT_TYPE_I32
 MAJOR = 1
-MINOR = 0
+MINOR = 1

@@ -95,6 +95,9 @@ public:
     /// Cells of the particles in their present order, for the host.
     virtual void download_cells(exec::Buffer<std::int32_t>& cell_of) = 0;
 
+    /// The other way round: for whoever puts an earlier state back.
+    virtual void upload_cells(exec::Buffer<std::int32_t> const& cell_of) = 0;
+
     virtual void finish() = 0;  ///< waits until all that was asked for is done
 
     virtual std::int64_t allocations() const = 0;  ///< of device memory since the beginning, where it is counted

@@ -116,6 +116,12 @@ public:
         device_.wait();
     }
 
+    void upload_cells(exec::Buffer<std::int32_t> const& cell_of) override
+    {
+        particles_.cell_of.upload(device_, cell_of);
+        device_.wait();
+    }
+
     void finish() override { finish_step(), device_.wait(); }
 
     std::int64_t allocations() const override

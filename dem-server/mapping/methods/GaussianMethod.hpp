@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// `gim`, the Gaussian Integral Method with Eq. 27, and `gim-fixed`, the same with one coefficient for all pairs,
-/// theory.md (G.4)-(G.11): from tables where the scene has few radii and cell sizes.
+/// theory.md (G.4)-(G.11): from tables where the scene has few radii and cell sizes, from curves of the
+/// cells where it has few radii.
 #pragma once
 
+#include "mapping/CellCurves.hpp"
 #include "mapping/GaussianTable.hpp"
 #include "mapping/Method.hpp"
 #include "mapping/WeightKernel.hpp"
@@ -28,6 +30,7 @@ private:
     PolyMesh const& mesh_;
     CellLayers layers_;
     GaussianTables tables_;
+    CellCurves curves_;
     exec::Buffer<CellSize> cell_sizes_;
     double fixed_coefficient_;
 };

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """gimdem-conformance: good clients pass every line, and a client with one thing broken fails the lines that it should.
 
-    test_conformance.py FOLDER_OF_PROGRAMS
+    test_conformance.py FOLDER_OF_PROGRAMS [--foam]      --foam: gimdemFoam was built
 """
 from __future__ import annotations
 
+import os
+import re
 import shutil
 import subprocess
 import sys
@@ -20,6 +22,7 @@ BROKEN = [PYTHON, str(HERE / "broken_client.py")]
 
 class Conformance(unittest.TestCase):
     programs: Path
+    has_foam = False
 
     def setUp(self) -> None:
         self.folder = Path(tempfile.mkdtemp(prefix="gimdem-test-"))
@@ -30,8 +33,10 @@ class Conformance(unittest.TestCase):
 
     def prove(self, client: list[str], *options: str) -> tuple[int, dict[str, str], str]:
         """Exit code, verdict of each line, and all that was printed."""
-        command = [str(self.programs / "gimdem-conformance"), "--until", "0.006", *options, "--", *client, "{endpoint}",
-                   str(self.folder)]
+        if "--until" not in options:
+            options = ("--until", "0.006", *options)
+        folder = [] if client[-1] == "-endpoint" else [str(self.folder)]
+        command = [str(self.programs / "gimdem-conformance"), *options, "--", *client, "{endpoint}", *folder]
         done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=200)
         lines = [line.split(maxsplit=1) for line in done.stdout.splitlines() if line[:1] in "oF-" and line]
         return done.returncode, {rest[:26].strip(): verdict for verdict, rest in lines}, done.stdout + done.stderr
@@ -50,6 +55,25 @@ class Conformance(unittest.TestCase):
 
     def test_example_in_python(self) -> None:
         self.passes([PYTHON, str(ROOT / "cfd-client" / "examples" / "column.py")])
+
+    def test_gimdem_foam(self) -> None:
+        """On the box of wachem-bed with 5 x 1 x 25 cells."""
+        if not self.has_foam:
+            self.skipTest("gimdemFoam was not built")
+        sys.path.insert(0, str(ROOT / "tools"))
+        import openfoam
+
+        case = self.folder / "case"
+        for part in ("0", "constant", "system"):
+            shutil.copytree(ROOT / "cases" / "wachem-bed" / part, case / part)
+        grid = (case / "system" / "blockMeshDict.A").read_text()
+        (case / "system" / "blockMeshDict").write_text(re.sub(
+            r"(n[xyz]) \d+;", lambda found: f"{found[1]} {dict(nx=5, ny=1, nz=25)[found[1]]};", grid))
+        openfoam.make_mesh(case)
+        coupling = case / "constant" / "couplingProperties"
+        coupling.write_text(coupling.read_text().replace("timeout     30;", "timeout     2;"))
+        os.environ.update(openfoam.environment())
+        self.passes([str(self.programs / "gimdemFoam"), "-case", str(case), "-endpoint"], "--until", "0.0006")
 
     def fails(self, what: str, trial: str, *expected: str) -> None:
         """Broken in that way, the client fails these lines of that trial and no other."""
@@ -102,5 +126,8 @@ class Conformance(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    if "--foam" in sys.argv:
+        sys.argv.remove("--foam")
+        Conformance.has_foam = True
     Conformance.programs = Path(sys.argv.pop(1))
     unittest.main()

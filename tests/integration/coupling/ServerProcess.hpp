@@ -16,6 +16,7 @@
 #include "BoxMesh.hpp"
 #include "Endpoint.hpp"
 #include "Process.hpp"
+#include "TemporaryFolder.hpp"
 #include "gimdem/coupling/Client.hpp"
 
 namespace gimdem::test
@@ -31,7 +32,9 @@ struct SmallCase
     double timeout = patient;       ///< of the server [s]
     double connect_time = patient;  ///< of the server [s]
     std::string schedule = "serial";
-    std::string more;  ///< of the case file
+    std::string more;                    ///< of the case file
+    std::string coupling;                ///< more of its [coupling]
+    std::vector<std::string> arguments;  ///< of the server, beside the usual ones
 
     static constexpr int particle_count = 300;
     static constexpr double diameter = 2e-3;          ///< [m]
@@ -46,8 +49,7 @@ struct SmallCase
                "[run]\nuntil = 1.0\n"
                "[coupling]\nschedule = \"" +
                schedule + "\"\ntimeout = " + std::to_string(timeout) +
-               "\nconnect_time = " + std::to_string(connect_time) +
-               "\n"
+               "\nconnect_time = " + std::to_string(connect_time) + "\n" + coupling +
                "[dem]\ntime_step = 1e-5\ngravity = [0.0, 0.0, 0.0]\nthreads = 1\n"
                "[[materials]]\nname = \"bead\"\ndensity = 1000.0\nyoung_modulus = 1e6\npoisson_ratio = 0.3\n"
                "[[contacts]]\npair = [\"bead\", \"bead\"]\nrestitution = 0.9\nfriction = 0.3\n"
@@ -59,34 +61,6 @@ struct SmallCase
                "[output]\nparticle_interval = 0.0\n" +
                more;
     }
-};
-
-/// A folder that is removed with its contents.
-class TemporaryFolder
-{
-public:
-    TemporaryFolder() : path_(std::filesystem::temp_directory_path() / unique_name())
-    {
-        std::filesystem::create_directories(path_);
-    }
-    ~TemporaryFolder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryFolder(TemporaryFolder const&) = delete;
-    TemporaryFolder& operator=(TemporaryFolder const&) = delete;
-
-    std::filesystem::path operator/(std::string const& name) const { return path_ / name; }
-
-private:
-    static std::string unique_name()
-    {
-        static std::atomic<int> count{0};
-        return "gimdem-integration-" + std::to_string(::getpid()) + "-" + std::to_string(++count);
-    }
-
-    std::filesystem::path path_;
 };
 
 class ServerProcess
@@ -137,7 +111,10 @@ private:
                                             SmallCase const& settings)
     {
         std::ofstream(folder / "case.toml") << settings.text();
-        return {GIMDEM_SERVER, "--case", folder / "case.toml", "--run", folder / "run", "--endpoint", endpoint};
+        std::vector<std::string> all{GIMDEM_SERVER, "--case", folder / "case.toml", "--run", folder / "run",
+                                     "--endpoint",  endpoint};
+        all.insert(all.end(), settings.arguments.begin(), settings.arguments.end());
+        return all;
     }
 
     /// The rest of the line after that text, and whether the line is complete.

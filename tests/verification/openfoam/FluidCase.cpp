@@ -129,7 +129,8 @@ FluidProcess::FluidProcess(FluidCase const& fluid)
 
     std::ostringstream control;
     control << "application gimdemFoam; startFrom startTime; startTime 0; stopAt endTime; endTime 1e9; deltaT "
-            << fluid.time_step << "; writeControl timeStep; writeInterval 1000000; writePrecision 12;\n";
+            << fluid.time_step << "; writeControl timeStep; writeInterval 1000000; writePrecision 12;\n"
+            << fluid.control;
     std::ostringstream air;
     air << "rho " << fluid.density << "; mu " << fluid.viscosity << ";\n";
 

@@ -36,7 +36,10 @@ struct FluidCase
     int correctors = 1;
     std::string convection = "limitedLinearV 1";
     std::string gradient = "Gauss linear";
-    double tolerance = 1e-10;                ///< of the pressure, relative
+    double tolerance = 1e-10;  ///< of the pressure, relative
+    std::string control;       ///< more of controlDict
+    int fluid_steps = 1;       ///< of a coupling step
+    bool overlapped = false;
     Vector cuts = {1, 1, 1};                 ///< parts along x, y and z, each solved by a process of its own
     std::function<Vector(Vector)> velocity;  ///< at t = 0, of a cell's centre; empty: superficial
 };

@@ -100,6 +100,7 @@ std::vector<std::array<double, N>> rows(Span<double const> flat)
 void take(FluidState const& state, Fluid& fluid)
 {
     fluid.time = state.step.time;
+    fluid.step = state.step.dt;
     fluid.velocity = rows<3>(state.fields.velocity);
     fluid.velocity_gradient = rows<9>(state.fields.velocity_gradient);
     fluid.pressure_gradient = rows<3>(state.fields.pressure_gradient);
@@ -109,15 +110,37 @@ void take(FluidState const& state, Fluid& fluid)
         fluid.monitors[monitor.name] = monitor.value;
 }
 
+ServerTerms terms_until(double end_time)
+{
+    return {"prescribed",
+            Schedule::serial,
+            end_time,
+            {field::velocity, field::velocity_gradient, field::pressure_gradient, field::void_fraction_gradient,
+             field::pressure}};
+}
+
+Fluid serve(FluidProcess& process, ServerTerms const& terms, Prescription const& prescribe, Observer const& observe);
+
 }  // namespace
 
 Fluid run_with(FluidCase const& fluid, Prescription const& prescribe, Observer const& observe)
 {
     FluidProcess process(fluid);
-    return run_with(process, fluid.end_time, prescribe, observe);
+    ServerTerms terms = terms_until(fluid.end_time);
+    terms.fluid_steps = fluid.fluid_steps;
+    if (fluid.overlapped) terms.schedule = Schedule::overlapped;
+    return serve(process, terms, prescribe, observe);
 }
 
 Fluid run_with(FluidProcess& process, double end_time, Prescription const& prescribe, Observer const& observe)
+{
+    return serve(process, terms_until(end_time), prescribe, observe);
+}
+
+namespace
+{
+
+Fluid serve(FluidProcess& process, ServerTerms const& terms, Prescription const& prescribe, Observer const& observe)
 {
     ServerOptions options;
     options.endpoint = unused_ipc_endpoint();
@@ -130,11 +153,7 @@ Fluid run_with(FluidProcess& process, double end_time, Prescription const& presc
     Fluid fluid;
     try
     {
-        server.wait_for_client({"prescribed",
-                                Schedule::serial,
-                                end_time,
-                                {field::velocity, field::velocity_gradient, field::pressure_gradient,
-                                 field::void_fraction_gradient, field::pressure}});
+        server.wait_for_client(terms);
         fluid.mesh = server.receive_mesh();
         measure(fluid.mesh, fluid);
         Sample sample(fluid, prescribe, 0);
@@ -156,5 +175,7 @@ Fluid run_with(FluidProcess& process, double end_time, Prescription const& presc
         throw std::runtime_error("gimdemFoam ended with " + std::to_string(code) + ":\n" + process.log());
     return fluid;
 }
+
+}  // namespace
 
 }  // namespace gimdem::test

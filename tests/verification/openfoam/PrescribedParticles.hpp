@@ -27,6 +27,7 @@ using Prescription = std::function<Solid(Vector centre, double time)>;
 struct Fluid
 {
     double time = 0;                                       ///< [s]
+    double step = 0;                                       ///< the coupling step that begins there [s]
     coupling::Mesh mesh;                                   ///< as the server has it
     std::vector<Vector> centre;                            ///< [m]
     std::vector<double> volume;                            ///< [m^3]

@@ -15,6 +15,7 @@
 /// serial: begin_step sends the fluid at t and returns the solid at t + dt. overlapped: it returns the solid at t at
 /// once and both solvers compute; end_step takes the solid at t + dt. Each call throws CouplingError on a fault; an
 /// illegal order of calls is Fault::user and names the state. Not thread-safe: one Client, one thread.
+/// iterated: as serial, and iterate_step() between the two repeats the step; FixedPoint.hpp shows the loop.
 ///
 /// Several processes (MPI): each has a Client, which sends its part of the mesh and of the fields and gets its part of
 /// the solid. Rank 0 connects first; its Welcome tells the endpoints of the others. All make the same calls with the
@@ -26,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include "gimdem/coupling/Checkpoint.hpp"
 #include "gimdem/coupling/Error.hpp"
 #include "gimdem/coupling/Types.hpp"
 
@@ -34,7 +36,7 @@ namespace gimdem::coupling
 
 struct ClientOptions
 {
-    std::string endpoint;              ///< "ipc:///path/socket" or "tcp://127.0.0.1:port"
+    std::string endpoint;              ///< "ipc:///path/socket" or "tcp://127.0.0.1:port", with keys "tcp://host:port"
     std::string name;                  ///< who we are, for messages and logs
     double timeout = 30;               ///< a peer silent for this long is dead [s]
     double connect_time = 60;          ///< how long connect() waits for a server to appear [s]
@@ -42,7 +44,10 @@ struct ClientOptions
     std::optional<Schedule> schedule;  ///< ask for one; left empty, the server's case file decides
     std::vector<std::string> wants;  ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
     bool shared_memory = true;       ///< over ipc, let large fields travel through shared memory if the server can
+    std::optional<ResumePoint> resume;  ///< where to go on; left empty: a run begins
+    bool iterates = false;           ///< the program calls iterate_step() if the schedule is iterated
     Rank rank;                       ///< of a fluid that several processes solve together
+    std::string keys;                ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
 };
 
 /// The server's answer to Hello.
@@ -53,6 +58,9 @@ struct Welcome
     Schedule schedule = Schedule::serial;
     double end_time = 0;                      ///< the run ends here [s]
     std::vector<std::string> needs;           ///< fluid fields that this scene needs, names of namespace field
+    bool saves_checkpoints = false;           ///< save_checkpoint() is possible
+    int fluid_steps = 1;                      ///< equal fluid steps that a coupling step should have
+    Iteration iteration;                      ///< of schedule iterated
     std::vector<std::string> rank_endpoints;  ///< to rank 0 of several: where ranks 1, 2, ... connect
     bool needs_field(std::string const& name) const;
 };
@@ -84,8 +92,20 @@ public:
     SolidFields const& begin_step(Step const& step, FluidFields const& fluid,
                                   std::vector<Monitor> const& monitors = {});
 
-    /// @pre begin_step() has been called. timings tells where this fluid step spent its time.
-    void end_step(Timings const& timings = {});
+    /// Schedule iterated: the server goes back to the beginning of the step and repeats it in this estimate of the
+    /// fluid at its end. @pre begin_step() or iterate_step() has been called. Returns the solid that the fluid step,
+    /// from its own state at t, must use. `residual`: relative, of the pass that is given up, for logs.
+    SolidFields const& iterate_step(FluidFields const& estimate, double residual = 0);
+
+    /// @pre begin_step() has been called. timings tells where this fluid step spent its time, residual how well an
+    /// iterated one converged.
+    void end_step(Timings const& timings = {}, double residual = 0);
+
+    /// @pre send_mesh() or end_step() was the last call, and the server saves checkpoints. Has the server save its
+    /// state of now; returns when that is safe on disk. The fluid's state of now belongs to it: write it, then remember
+    /// what is returned, for ClientOptions.resume. complete_step: step of the newest checkpoint to which a fluid is
+    /// whole, 0: none; the server keeps it until a newer one is complete.
+    SavedCheckpoint save_checkpoint(double time, std::int64_t complete_step);
 
     /// Why the server asks for an orderly end (Ctrl-C there), if it does: write your fields and call finish().
     std::optional<std::string> const& stop_request() const;

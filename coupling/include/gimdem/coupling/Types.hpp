@@ -20,8 +20,32 @@ inline constexpr int protocol_minor = 1;
 /// Which time level each solver sees within one coupling step, docs/theory.md section C.
 enum class Schedule
 {
-    serial,     ///< the fluid step t -> t + dt uses the particles at t + dt: one solver waits for the other
-    overlapped  ///< both solvers compute t -> t + dt at the same time, each on what the other sent last
+    serial,      ///< the fluid step t -> t + dt uses the particles at t + dt: one solver waits for the other
+    overlapped,  ///< both solvers compute t -> t + dt at the same time, each on what the other sent last
+    iterated     ///< serial, and the step is repeated in the fluid at t + dt until that stands still
+};
+
+/// As case files write it.
+inline char const* name_of(Schedule schedule)
+{
+    switch (schedule)
+    {
+        case Schedule::overlapped:
+            return "overlapped";
+        case Schedule::iterated:
+            return "iterated";
+        default:
+            return "serial";
+    }
+}
+
+/// How the schedule `iterated` repeats a step, docs/theory.md (C.15)-(C.18).
+struct Iteration
+{
+    double tolerance = 1e-4;     ///< relative residual at which a step is accepted [1]
+    int max_passes = 20;         ///< of a step; 1 is the schedule serial
+    double relaxation = 0.5;     ///< factor of the first pass [1]
+    bool must_converge = false;  ///< else a step that did not is accepted as it is
 };
 
 /// What a boundary patch of the mesh is to the particles.

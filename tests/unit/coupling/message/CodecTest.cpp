@@ -65,7 +65,16 @@ std::vector<Damage> const damages{
      "protocol 0.0 and this side speaks 1."},
     {"NewerVersion", [](auto& m) { m.envelope.set_protocol_major(2); }, Fault::version, "protocol 2.0"},
     {"NoKind", [](auto& m) { m.envelope.clear_kind(); }, Fault::protocol, "without a message"},
-    {"Iteration", [](auto& m) { m.envelope.set_iteration(1); }, Fault::protocol, "iteration 1"},
+    {"EndlessIteration", [](auto& m) { m.envelope.set_iteration(10001); }, Fault::protocol, "iteration 10001"},
+    {"NegativeIteration", [](auto& m) { m.envelope.set_iteration(-1); }, Fault::protocol, "iteration -1"},
+    {"IterationOfNoStep",
+     [](auto& m)
+     {
+         m = test::raw_goodbye();
+         m.envelope.set_protocol_major(1);
+         m.envelope.set_iteration(1);
+     },
+     Fault::protocol, "Goodbye with iteration 1"},
     {"TruncatedFrame", [](auto& m) { m.arrays[0].pop_back(); }, Fault::protocol,
      "31 bytes, but its header promises 4 rows of 8"},
     {"PaddedFrame", [](auto& m) { m.arrays[0] += 'x'; }, Fault::protocol, "33 bytes"},

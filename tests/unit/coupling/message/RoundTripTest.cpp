@@ -71,6 +71,28 @@ TEST(RoundTrip, HelloWithoutASchedule)
     EXPECT_TRUE(got.wants.empty());
 }
 
+TEST(RoundTrip, WhoIteratesAndHow)
+{
+    EXPECT_TRUE(unpack_hello(over_the_wire(pack(Hello{"a client", {}, {}, Schedule::iterated, 1, true}))).iterates);
+    EXPECT_FALSE(unpack_hello(over_the_wire(pack(Hello{"a client", {}, {}, std::nullopt, 1}))).iterates);
+
+    Welcome const sent{"a server", "a title", Schedule::iterated, 0.1, {}, 4, {1e-5, 7, 0.25, true}};
+    Welcome const got = unpack_welcome(over_the_wire(pack(sent)));
+    EXPECT_EQ(got.schedule, Schedule::iterated);
+    EXPECT_EQ(got.fluid_steps, 4);
+    EXPECT_EQ(got.iteration.tolerance, 1e-5);
+    EXPECT_EQ(got.iteration.max_passes, 7);
+    EXPECT_EQ(got.iteration.relaxation, 0.25);
+    EXPECT_TRUE(got.iteration.must_converge);
+}
+
+TEST(RoundTrip, WelcomeOfProtocol10HasOneFluidStep)
+{
+    Message message = pack(Welcome{"a server", "a title", Schedule::serial, 0.1, {}});
+    message.envelope.mutable_welcome()->clear_fluid_steps();
+    EXPECT_EQ(unpack_welcome(over_the_wire(std::move(message))).fluid_steps, 1);
+}
+
 TEST(RoundTrip, Welcome)
 {
     Welcome const sent{"a server", "a title", Schedule::serial, 0.1, {"pressure", "velocity"}};
@@ -144,6 +166,27 @@ TEST(RoundTrip, FluidState)
     EXPECT_EQ(got.previous.output, 0.25);
     EXPECT_EQ(got.exchange, 0.125);
     EXPECT_EQ(got.waiting, 3);
+}
+
+TEST(RoundTrip, FluidStateOfALaterPass)
+{
+    FluidState sent;
+    sent.step = {7, 0.1, 1e-4};
+    sent.pass = 3;
+    sent.residual = 0.25;
+    Message const message = over_the_wire(pack(sent, {}));
+    EXPECT_EQ(message.envelope.iteration(), 3);
+    EXPECT_EQ(unpack_fluid_state(message, {}).pass, 3);
+    EXPECT_EQ(unpack_fluid_state(message, {}).residual, 0.25);
+}
+
+TEST(RoundTrip, RewindAndIterationBelongTogether)
+{
+    Message first = pack(FluidState{}, {}), later = pack(FluidState{}, {});
+    first.envelope.mutable_fluid_state()->mutable_rewind();
+    later.envelope.set_iteration(1);
+    EXPECT_FAULT(unpack_fluid_state(first, {}), Fault::protocol, "iteration 0 with a Rewind");
+    EXPECT_FAULT(unpack_fluid_state(later, {}), Fault::protocol, "iteration 1 without a Rewind");
 }
 
 TEST(RoundTrip, SolidState)

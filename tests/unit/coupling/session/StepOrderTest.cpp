@@ -63,6 +63,30 @@ TEST(StepOrder, RefusesAWrongTime)
     EXPECT_THAT(fault({}, {1, std::numeric_limits<double>::quiet_NaN(), 0.1}), testing::HasSubstr("finite"));
 }
 
+TEST(StepOrder, AllowsTheLastStepAgainOfAnyLength)
+{
+    StepOrder order = after({3, 0.2, 0.1});
+    EXPECT_FALSE(order.find_fault_of_repeat({3, 0.2, 0.1}, 1));
+    order.accept_repeat({3, 0.2, 0.05}, 1);
+    EXPECT_FALSE(order.find_fault_of_repeat({3, 0.2, 0.1}, 2));
+    EXPECT_EQ(fault(order, {4, 0.25, 0.1}), "(nothing)") << "after the length of the last pass";
+    order.accept({4, 0.25, 0.1});
+    EXPECT_FALSE(order.find_fault_of_repeat({4, 0.25, 0.1}, 1)) << "passes of each step begin at 0";
+}
+
+TEST(StepOrder, RefusesToRepeatAnythingElse)
+{
+    auto const fault_of = [](StepOrder const& order, Step const& step, int pass)
+    { return order.find_fault_of_repeat(step, pass).value_or("(nothing)"); };
+    auto const order = after({3, 0.2, 0.1});
+    EXPECT_THAT(fault_of({}, {0, 0, 1}, 1), testing::HasSubstr("only the last step can be repeated"));
+    EXPECT_THAT(fault_of(order, {2, 0.2, 0.1}, 1), testing::HasSubstr("only the last step can be repeated"));
+    EXPECT_THAT(fault_of(order, {4, 0.2, 0.1}, 1), testing::HasSubstr("only the last step can be repeated"));
+    EXPECT_THAT(fault_of(order, {3, 0.2, 0.1}, 2), testing::HasSubstr("pass 2 of step 3 follows pass 0 of step 3"));
+    EXPECT_THAT(fault_of(order, {3, 0.3, 0.1}, 1), testing::HasSubstr("begins at 0.3 s"));
+    EXPECT_THAT(fault_of(order, {3, 0.2, 0}, 1), testing::HasSubstr("must be positive"));
+}
+
 TEST(StepOrder, RefusesAStepThatDoesNotAdvance)
 {
     for (double const dt :

@@ -29,9 +29,20 @@ TEST(Address, ThatOthersCouldReachIsRefusedForWantOfKeys)
                                  "tcp://example.org:5555", "tcp://[::]:5555", "tcp://128.0.0.1:5555",
                                  "tcp://127.0.0.1.example.org:5555", "tcp://127.0.0:5555", "tcp://127.0.0.256:5555"})
     {
-        EXPECT_FAULT(parse_address(endpoint, Role::server), Fault::endpoint, "encryption keys");
+        EXPECT_FAULT(parse_address(endpoint, Role::server), Fault::endpoint, "allowed without keys");
         EXPECT_FAULT(parse_address(endpoint, Role::client), Fault::endpoint, endpoint);
     }
+}
+
+TEST(Address, OfAnyMachineIsAllowedWithKeys)
+{
+    EXPECT_EQ(parse_address("tcp://192.168.1.2:5555", Role::client, Protection::keys).text, "tcp://192.168.1.2:5555");
+    EXPECT_EQ(parse_address("tcp://example.org:5555", Role::client, Protection::keys).text, "tcp://example.org:5555");
+    EXPECT_EQ(parse_address("tcp://*:5555", Role::server, Protection::keys).text, "tcp://*:5555");
+    EXPECT_TRUE(parse_address("tcp://[fd00::2]:5555", Role::client, Protection::keys).ipv6);
+    for (char const* endpoint :
+         {"tcp://*:5555", "tcp://:5555", "tcp://a b:5555", "tcp://eth0;x:5555", "tcp://a/b:5555"})
+        EXPECT_FAULT(parse_address(endpoint, Role::client, Protection::keys), Fault::endpoint, "valid host");
 }
 
 TEST(Address, ThatMakesNoSenseIsRefusedWithAHint)

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// coupling.csv, a row for each coupling step: who worked, who waited, what the schedule saves and what its lag costs.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "engine/CoupledEngine.hpp"
+#include "engine/LagMeter.hpp"
+#include "gimdem/coupling/Server.hpp"
+#include "output/OverlapMeter.hpp"
+#include "output/Summary.hpp"
+#include "output/TimeSeries.hpp"
+
+namespace gimdem::app
+{
+
+class CouplingLog
+{
+public:
+    CouplingLog(std::filesystem::path const& folder, PolyMesh const& mesh, coupling::Schedule schedule);
+
+    /// The fluid of a step has come, after so long a wait [s]: the step before is over, its row is written.
+    void arrived(coupling::FluidState const& fluid, double waited);
+    /// The solid has been computed.
+    void answered(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine);
+
+    /// The run goes on from an earlier time [s]: rows from there on are written again.
+    void rewind(double time);
+
+    /// Figures of all steps but the last, of which the fluid solver never tells.
+    void add_to(output::Summary& summary) const;
+
+private:
+    using Time = std::chrono::steady_clock::time_point;
+
+    /// A step that is not over yet.
+    struct Running
+    {
+        coupling::Step step;
+        Time began;
+        double client_waiting = 0;  ///< of the client so far, when the step began [s]
+        std::int64_t passes = 0;
+        std::int64_t dem_steps = 0;  ///< of the last pass
+        double dem = 0;              ///< of all passes [s]
+        LagError lag;
+    };
+
+    void close(coupling::FluidState const& next, Time now, double server_waiting);
+
+    bool iterates_;
+    output::TimeSeries series_;
+    output::OverlapMeter overlap_;
+    LagMeter lag_;
+    std::optional<Running> running_;
+    double duration_ = 0, server_waiting_ = 0, client_waiting_ = 0;  ///< sums of the steps that are over [s]
+    LagError lag_sum_, lag_worst_;                                   ///< sums: times dt [s]
+    std::int64_t steps_ = 0, passes_ = 0, most_passes_ = 0;
+    double residual_worst_ = 0;
+};
+
+}  // namespace gimdem::app

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ScriptedChannel.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <utility>
+
+#include "message/Codec.hpp"
+#include "message/Control.hpp"
+
+namespace gimdem::fuzz
+{
+
+using coupling::CouplingError;
+using coupling::transport::Clock;
+using coupling::transport::Frames;
+using coupling::transport::Role;
+
+namespace
+{
+
+Frames copy_of(Frames const& frames)
+{
+    Frames copy;
+    for (auto const& frame : frames)
+        copy.emplace_back(frame.data(), frame.size());
+    return copy;
+}
+
+}  // namespace
+
+void report(char const* what)
+{
+    std::cerr << "finding: " << what << std::endl;
+    std::abort();
+}
+
+Wire& Wire::of_session()
+{
+    static Wire wire;
+    return wire;
+}
+
+void Wire::open(Role role, coupling::transport::ChannelHooks hooks)
+{
+    auto coming = std::move(coming_);
+    *this = Wire();
+    role_ = role;
+    hooks_ = std::move(hooks);
+    coming_ = std::move(coming);
+    open_ = true;
+}
+
+void Wire::deliver()
+{
+    while (open_ && !coming_.empty())
+    {
+        Frames frames = std::move(coming_.front());
+        coming_.pop_front();
+        if (frames.empty() || (!contact_ && role_ == Role::server && !hooks_.may_open(frames.front()))) continue;
+        contact_ = true;
+        if (is_letter(frames)) ++delivered_;
+        hooks_.deliver(std::move(frames), Clock::now());
+    }
+}
+
+void Wire::deliver_to_stranger(Frames frames)
+{
+    if (!open_) return;
+    Frames const answer = hooks_.answer_stranger(std::move(frames));
+    if (!answer.empty()) coupling::message::decode(copy_of(answer));
+    coupling::message::decode(hooks_.heartbeat());
+}
+
+void Wire::end(coupling::transport::Ending ending)
+{
+    if (open_) hooks_.ended(std::move(ending));
+}
+
+/// Everything but a right heartbeat, which changes nothing, and what may not open a session.
+bool Wire::is_letter(Frames const& frames) const
+{
+    if (frames.empty()) return false;
+    bool const opens = contact_ || role_ == Role::client || hooks_.may_open(frames.front());
+    try
+    {
+        auto const message = coupling::message::decode(copy_of(frames));
+        if (message.kind() != coupling::message::Kind::kHeartbeat) return opens;
+        coupling::message::unpack_heartbeat(message);
+        return false;
+    }
+    catch (CouplingError const&)
+    {
+        return opens;
+    }
+}
+
+std::size_t Wire::supply() const
+{
+    return delivered_ + static_cast<std::size_t>(std::count_if(coming_.begin(), coming_.end(),
+                                                               [this](auto const& f) { return is_letter(f); }));
+}
+
+bool Wire::has_sent(coupling::message::Kind kind) const
+{
+    return std::find(sent_.begin(), sent_.end(), kind) != sent_.end();
+}
+
+void Wire::send(Frames frames)
+{
+    if (!open_) report("a message is sent over a closed channel");
+    auto const message = coupling::message::decode(std::move(frames));  // throws: what we send we would refuse
+    sent_.push_back(message.kind());
+    if (message.kind() == coupling::message::Kind::kWelcome) session_ = message.envelope.session();
+    deliver();
+}
+
+}  // namespace gimdem::fuzz
+
+namespace gimdem::coupling::transport
+{
+
+Socket::Socket(Role role, Address const& address) : role_(role), endpoint_(address.text), context_(1) {}
+Socket::~Socket() = default;
+
+Socket Socket::connect(std::string const& endpoint, std::optional<ClientKeys> const&)
+{
+    return Socket(Role::client, {endpoint, "", false});
+}
+
+Socket Socket::bind(std::string const& endpoint, std::optional<ServerKeys> const&)
+{
+    return Socket(Role::server, {endpoint, "", false});
+}
+
+Channel::Channel(Socket socket, double timeout, ChannelHooks hooks)
+    : socket_(std::move(socket)), endpoint_(socket_.endpoint()), liveness_(timeout, Clock::now())
+{
+    fuzz::Wire::of_session().open(socket_.role(), std::move(hooks));
+}
+
+Channel::~Channel()
+{
+    fuzz::Wire::of_session().close();
+}
+
+void Channel::send(Frames frames)
+{
+    fuzz::Wire::of_session().send(std::move(frames));
+}
+
+void Channel::close(Clock::duration) noexcept
+{
+    fuzz::Wire::of_session().close();
+}
+
+}  // namespace gimdem::coupling::transport

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include "Endpoint.hpp"
+#include "Figure.hpp"
+#include "ProcessMeters.hpp"
+#include "SessionScript.hpp"
+#include "SharedMemoryNames.hpp"
+#include "Storm.hpp"
+
+namespace gimdem::test
+{
+namespace
+{
+
+int constexpr steps = 3;
+double constexpr timeout = 30;
+/// Until threads, pools and arenas have the size that they keep.
+int constexpr warm_up = 20;
+/// A session's smallest frame of a field has 8 KiB, its mesh 200: whoever kept one a cycle would be above this [byte].
+double constexpr most_growth = 4096;
+
+/// Returns what is wrong.
+std::string run_cycle(std::string const& given)
+{
+    std::string fault;
+    {
+        coupling::Server server(storm_server(given, timeout));
+        std::thread other(
+            [&]
+            {
+                try
+                {
+                    coupling::Client client(storm_client(server.endpoint(), timeout));
+                    solve(client, steps);
+                }
+                catch (coupling::CouplingError const& error)
+                {
+                    fault = error.what();
+                }
+            });
+        try
+        {
+            serve(server);
+        }
+        catch (coupling::CouplingError const& error)
+        {
+            fault = error.what();
+        }
+        other.join();
+    }
+    bool const left_file = given.rfind("ipc", 0) == 0 && (std::filesystem::exists(file_of(given)) ||
+                                                          std::filesystem::exists(file_of(given) + ".lock"));
+    if (left_file) return "a socket file is left";
+    if (!shared_memory_names().empty()) return "shared memory is left";
+    return fault;
+}
+
+}  // namespace
+
+int run_cycles(int count)
+{
+    int wrong = 0;
+    double memory = 0;
+    double descriptors = 0;
+    for (int cycle = 1; cycle <= warm_up + count; ++cycle)
+    {
+        std::string const problem = run_cycle(cycle % 2 == 0 ? unused_ipc_endpoint() : any_tcp_endpoint());
+        if (!problem.empty()) fmt::print("wrong: cycle {}: {}\n", cycle, problem), ++wrong;
+        if (cycle != warm_up) continue;
+        ::malloc_trim(0);
+        memory = own_memory();
+        descriptors = file_descriptors();
+    }
+    ::malloc_trim(0);
+    double const growth = (own_memory() - memory) / count;
+    double const more = file_descriptors() - descriptors;
+    figure("start_stop_cycles", count);
+    figure("memory_growth_per_cycle", growth, "byte");
+    figure("file_descriptors_growth", more);
+    if (growth > most_growth) fmt::print("wrong: memory grows by {:.0f} bytes a cycle\n", growth), ++wrong;
+    if (more != 0) fmt::print("wrong: {:.0f} more file descriptors than before\n", more), ++wrong;
+    return wrong;
+}
+
+}  // namespace gimdem::test

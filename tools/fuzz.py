@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""./gimdem fuzz: what comes off the wire, thrown at the coupling library by chance and by coverage."""
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+from build import FAILURE, locked
+from console import ROOT, UserError, build_dir, say, shown
+
+TARGETS = ("envelope", "mesh", "state_machine")
+SOURCE = ROOT / "tests" / "fuzz"
+MOST_BYTES = 1024  # of an input: a dozen messages
+MOST_SECONDS = 60  # for one input, on a busy machine
+EXECUTED = re.compile(r"^stat::number_of_executed_units:\s*(\d+)", re.MULTILINE)
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--target", choices=TARGETS, help="one of the targets (all)")
+    length = parser.add_mutually_exclusive_group()
+    length.add_argument("--runs", metavar="N", type=int, help="executions of each target")
+    length.add_argument("--seconds", metavar="S", type=int, default=60, help="time for each target (60)")
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the chance; 0: another one each time")
+    parser.add_argument("--keep", action="store_true", help="put what reaches new code into tests/fuzz/corpus")
+
+
+def run(options: argparse.Namespace) -> int:
+    folder = build_dir().parent / "fuzz"
+    build(folder)
+    targets = (options.target,) if options.target else TARGETS
+    return max([fuzz(folder, target, options) for target in targets])
+
+
+def build(folder: Path) -> None:
+    """Everything with sanitizers: by clang, which has libFuzzer, or else by g++, whose targets go by chance alone."""
+    if os.environ.get("GIMDEM_NO_BUILD"):
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    log = folder / "build.log"
+    compilers = ["clang", "clang++"] if shutil.which("clang++") else ["gcc", "g++"]
+    with locked(folder / ".lock"), log.open("w") as out:
+        if not (folder / "build.ninja").exists():
+            say("fuzz", f"building the targets with {compilers[1]} in {shown(folder)}")
+            call(["cmake", "-S", str(SOURCE), "-B", str(folder), "-G", "Ninja", f"-DCMAKE_C_COMPILER={compilers[0]}",
+                  f"-DCMAKE_CXX_COMPILER={compilers[1]}"], log, out)
+        call(["ninja", "-C", str(folder), *(f"fuzz_{target}" for target in TARGETS)], log, out)
+
+
+def call(command: list[str], log: Path, out) -> None:
+    if subprocess.call(command, cwd=ROOT, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL) == 0:
+        return
+    lines = log.read_text(errors="replace").splitlines()
+    first = next((line for line in lines if FAILURE.search(line)), "")
+    raise UserError(f"the fuzz targets cannot be built ({first.strip()}); the whole log is {shown(log)}")
+
+
+def fuzz(folder: Path, target: str, options: argparse.Namespace) -> int:
+    """One target until its time is up or it finds something; returns the exit code."""
+    kept = SOURCE / "corpus" / target
+    found = folder / "corpus" / target
+    findings = folder / "findings"
+    for each in (kept, found, findings):
+        each.mkdir(parents=True, exist_ok=True)
+    length = f"-runs={options.runs}" if options.runs is not None else f"-max_total_time={options.seconds}"
+    command = [str(folder / f"fuzz_{target}"), length, f"-seed={options.seed}", f"-max_len={MOST_BYTES}",
+               f"-timeout={MOST_SECONDS}", "-print_final_stats=1", f"-artifact_prefix={findings}/{target}-",
+               str(kept if options.keep else found), str(kept)]
+    log = folder / f"{target}.log"
+    with log.open("w") as out:
+        code = subprocess.call(command, stdout=out, stderr=subprocess.STDOUT, env=environment())
+    text = log.read_text(errors="replace")
+    executed = EXECUTED.search(text)
+    if executed:
+        print(f"figure: fuzz_executions_{target} = {executed[1]} [1]", flush=True)
+    if code == 0:
+        return 0
+    print("\n".join(text.splitlines()[-60:]))
+    say("fuzz", f"{target} has found something; its input is in {shown(findings)}, the whole log is {shown(log)}")
+    return 1
+
+
+def environment() -> dict[str, str]:
+    """Short stacks of allocations: they cost half of the time."""
+    return {"ASAN_OPTIONS": "malloc_context_size=3:quarantine_size_mb=16", "UBSAN_OPTIONS": "print_stacktrace=1",
+            **os.environ}
