@@ -34,6 +34,12 @@ void CouplingLog::arrived(coupling::FluidState const& fluid, double waited)
     running_ = {.step = fluid.step, .began = now, .client_waiting = fluid.waiting, .lag = {}};
 }
 
+void CouplingLog::rewind(double time)
+{
+    running_.reset();
+    series_.keep_before(time, 1);
+}
+
 void CouplingLog::answered(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine)
 {
     ++running_->passes;

@@ -27,6 +27,9 @@ public:
     /// The solid has been computed.
     void answered(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine);
 
+    /// The run goes on from an earlier time [s]: rows from there on are written again.
+    void rewind(double time);
+
     /// Figures of all steps but the last, of which the fluid solver never tells.
     void add_to(output::Summary& summary) const;
 

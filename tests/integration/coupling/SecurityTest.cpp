@@ -35,7 +35,7 @@ TEST(Security, LetsAClientWithAKnownKeyInAndTurnsOthersAway)
 
     Process client({GIMDEM_SCRIPTED_CLIENT, server.endpoint(), "40", "5", keys.path()}, folder / "client.txt");
     EXPECT_EQ(client.wait(soon), 0) << client.output();
-    server.expect_end(0, "gimdem-server: turned away a client at " + own_address() + " with the unknown key ");
+    server.expect_end(0, "turned away a client at " + own_address() + " with the unknown key ");
 }
 
 TEST(Security, RefusesToBindOtherAddressesWithoutKeys)
