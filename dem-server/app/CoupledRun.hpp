@@ -57,7 +57,7 @@ private:
     /// Returns how long output took [s].
     double begin_step(coupling::FluidState const& fluid, double waited);
     /// The same for a pass after the first.
-    double repeat_step();
+    double repeat_step(double waited);
     /// The step that was answered last stands.
     void accept();
     void require_same(coupling::ClientInfo const& client) const;
