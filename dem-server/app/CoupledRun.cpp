@@ -183,7 +183,9 @@ void CoupledRun::couple()
         double const output_time =
             fluid->pass == 0 ? begin_step(*fluid, seconds_since(asked)) : repeat_step(seconds_since(asked));
         observer_.begin_step(*fluid);
+        is_in_step_ = true;
         StepReport report = engine_.advance(fluid->step, fluid->fields);
+        is_in_step_ = false;
         report.timings.output = output_time;
         if (interrupted()) server_.request_stop("interrupted by the user");
         server_.send_solid(engine_.fields(), report.timings);
@@ -233,7 +235,7 @@ void CoupledRun::finish_after_failure() noexcept
     };
     attempt([&] { accept(); });
     attempt([&] { finish_records(); });
-    attempt([&] { keep(); });
+    if (!is_in_step_) attempt([&] { keep(); });
 }
 
 void CoupledRun::finish_records()
@@ -284,6 +286,8 @@ void CoupledRun::load(std::filesystem::path const& file)
 {
     MappedState mapped;
     start_ = at_ = read_checkpoint(file, settings_, inlets_, system_, engine_.weight_reuse(), &mapped);
+    kept_ = at_.step;
+    is_in_step_ = false;
     engine_.resume(mapped);
     events_.say("restarted", fmt::format("{} particles from {:.6g} s", system_.particles().count(), at_.time),
                 {{"checkpoint", file.string()}, {"time_s", at_.time}});

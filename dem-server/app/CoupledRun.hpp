@@ -85,6 +85,7 @@ private:
     std::int64_t complete_step_ = 0;  ///< of the newest checkpoint to which the client has a fluid
     bool is_asked_ = false;           ///< the client asks for checkpoints
     std::int64_t kept_ = -1;          ///< step of the last checkpoint
+    bool is_in_step_ = false;         ///< the particles move: theirs is the state of no time
 };
 
 }  // namespace gimdem::app
