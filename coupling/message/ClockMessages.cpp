@@ -85,8 +85,7 @@ ClientTimes unpack_times(v1::StepTimes const& body)
     check_number(body.closed(), body.ended(), "times: closed");
     check_number(body.wait_from(), body.begun(), "times: wait_from");
     check_number(body.wait_to(), body.wait_from(), "times: wait_to");
-    return {body.step(),   body.begun(),     body.resumed(), body.ended(),
-            body.closed(), body.wait_from(), body.wait_to()};
+    return {body.step(), body.begun(), body.resumed(), body.ended(), body.closed(), body.wait_from(), body.wait_to()};
 }
 
 ClockOffset unpack_offset(v1::StepTimes const& body)

@@ -35,7 +35,10 @@ std::vector<std::size_t> offsets_of(std::vector<Mesh> const& parts, char const* 
 class PointSets
 {
 public:
-    explicit PointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+    explicit PointSets(std::size_t count) : parent_(count)
+    {
+        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    }
 
     std::size_t root(std::size_t point)
     {
@@ -160,8 +163,8 @@ private:
                                  static_cast<std::int32_t>(first_cell_[rank]) + parts_[rank].neighbour[face], rank,
                                  face});
         for (FacePair const& pair : pairs_)
-            faces.push_back({owner_of(pair.rank_a, pair.face_a), owner_of(pair.rank_b, pair.face_b), pair.rank_a,
-                             pair.face_a});
+            faces.push_back(
+                {owner_of(pair.rank_a, pair.face_a), owner_of(pair.rank_b, pair.face_b), pair.rank_a, pair.face_a});
         std::stable_sort(faces.begin(), faces.end(),
                          [](WholeFace const& a, WholeFace const& b)
                          { return std::tie(a.owner, a.neighbour) < std::tie(b.owner, b.neighbour); });

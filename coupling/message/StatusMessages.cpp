@@ -37,9 +37,15 @@ RunStatus unpack_run(v1::Status const& body)
     if (body.figures_size() > max_figures)
         refuse("Status: " + std::to_string(body.figures_size()) + " figures (at most " + std::to_string(max_figures) +
                ")");
-    RunStatus run{cut(body.title()),    cut(body.activity()), body.folder().substr(0, max_text_bytes),
-                  cut(body.schedule()), body.time(),          body.end_time(),
-                  body.steps_per_second(), body.wall_per_simulated(), {}};
+    RunStatus run{cut(body.title()),
+                  cut(body.activity()),
+                  body.folder().substr(0, max_text_bytes),
+                  cut(body.schedule()),
+                  body.time(),
+                  body.end_time(),
+                  body.steps_per_second(),
+                  body.wall_per_simulated(),
+                  {}};
     for (v1::Monitor const& figure : body.figures())
         run.figures.push_back({cut(figure.name()), figure.value(), cut(figure.unit())});
     return run;
@@ -80,8 +86,8 @@ Status unpack_status(Message const& message)
     Status status;
     status.run = unpack_run(body);
     status.server = cut(body.server());
-    status.protocol = std::to_string(message.envelope.protocol_major()) + "." +
-                      std::to_string(message.envelope.protocol_minor());
+    status.protocol =
+        std::to_string(message.envelope.protocol_major()) + "." + std::to_string(message.envelope.protocol_minor());
     status.state = cut(body.state());
     status.state_time = body.state_time();
     status.step = message.envelope.step();

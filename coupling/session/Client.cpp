@@ -100,14 +100,13 @@ void Client::Impl::connect(FluidProperties const& fluid)
     session.open(transport::Socket::connect(options.endpoint, keys));
     session.advance(Event::connect);
     shared.want(options.shared_memory && session.is_ipc());
-    message::Message hello = message::pack(
-        message::Hello{.name = options.name,
-                       .fluid = fluid,
-                       .wants = options.wants,
-                       .schedule = options.schedule,
-                       .timeout = options.timeout,
-                       .iterates = options.iterates,
-                       .rank = options.rank});
+    message::Message hello = message::pack(message::Hello{.name = options.name,
+                                                          .fluid = fluid,
+                                                          .wants = options.wants,
+                                                          .schedule = options.schedule,
+                                                          .timeout = options.timeout,
+                                                          .iterates = options.iterates,
+                                                          .rank = options.rank});
     shared.offer(hello);
     record.stamp(hello);
     Time const hello_sent = Clock::now();

@@ -252,8 +252,7 @@ std::size_t Ranks::cells_of(std::size_t rank) const
 /// Fault::user, before any rank gets its part.
 void Ranks::check_solid(SolidFields const& fields) const
 {
-    if (!first_cell_.empty())
-        message::check_fields(wants_, fields, static_cast<std::size_t>(first_cell_.back()));
+    if (!first_cell_.empty()) message::check_fields(wants_, fields, static_cast<std::size_t>(first_cell_.back()));
 }
 
 SolidFields Ranks::cut(SolidFields const& whole, std::size_t rank) const

@@ -21,8 +21,8 @@ namespace gimdem::coupling::session
 /// Where the server listens for a rank, from 1 on: beside the socket file of rank 0, or at any free port.
 std::string endpoint_of_rank(std::string const& endpoint, std::int32_t rank);
 
-/// Every rank has a session of its own, with its own socket, heartbeats and shared memory. Here their meshes are merged,
-/// their fields put one after the other, and their steps compared; what ends one of them ends all.
+/// Every rank has a session of its own, with its own socket, heartbeats and shared memory. Here their meshes are
+/// merged, their fields put one after the other, and their steps compared; what ends one of them ends all.
 class Ranks : public Exchange
 {
 public:
@@ -65,11 +65,11 @@ private:
 
     std::vector<Exchange*> parts_;  ///< by rank
     Parts others_;
-    std::string name_;                       ///< of the client
+    std::string name_;  ///< of the client
     message::FieldChoice<SolidFields> wants_;
-    std::vector<std::int32_t> first_cell_;  ///< shape=(ranks + 1,)
+    std::vector<std::int32_t> first_cell_;              ///< shape=(ranks + 1,)
     std::map<std::string, std::vector<double>> fluid_;  ///< whole fields, which the spans of the last FluidState show
-    std::mutex stop_mutex_;                 ///< request_stop() may come from another thread
+    std::mutex stop_mutex_;                             ///< request_stop() may come from another thread
     std::optional<std::string> stop_;
 };
 

@@ -137,15 +137,15 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
                                       " cannot repeat a step (it does not say so in Hello); choose schedule serial or "
                                       "overlapped, or another client");
 
-    message::Message welcome = message::pack(
-        Welcome{.server = options.name,
-                .title = offered.title,
-                .schedule = schedule,
-                .end_time = offered.end_time,
-                .needs = offered.needs,
-                .fluid_steps = offered.fluid_steps,
-                .iteration = offered.iteration,
-                .rank_endpoints = ranks ? ranks->endpoints() : std::vector<std::string>()});
+    message::Message welcome =
+        message::pack(Welcome{.server = options.name,
+                              .title = offered.title,
+                              .schedule = schedule,
+                              .end_time = offered.end_time,
+                              .needs = offered.needs,
+                              .fluid_steps = offered.fluid_steps,
+                              .iteration = offered.iteration,
+                              .rank_endpoints = ranks ? ranks->endpoints() : std::vector<std::string>()});
     shared.offer(welcome);
     shared.agree(letter.message);
     session.limit_arrays(transport::half_of_memory());

@@ -80,9 +80,10 @@ public:
             bool const closed = event == ZMQ_EVENT_CLOSED || event == ZMQ_EVENT_CONNECT_RETRIED ||
                                 event == ZMQ_EVENT_DISCONNECTED || event == ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL ||
                                 event == ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL;
-            if (closed) return !connected_  ? Reply::Silence::nobody
-                               : !greeted_ ? Reply::Silence::not_zeromq
-                                           : Reply::Silence::hung_up;
+            if (closed)
+                return !connected_ ? Reply::Silence::nobody
+                       : !greeted_ ? Reply::Silence::not_zeromq
+                                   : Reply::Silence::hung_up;
         }
         return std::nullopt;
     }

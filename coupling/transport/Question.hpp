@@ -21,7 +21,7 @@ struct Reply
         no_answer,    ///< the time was up, on a connection that stands
         no_greeting,  ///< the time was up, before ZeroMQ's own handshake was over
     };
-    Frames frames;                            ///< the answer
+    Frames frames;                         ///< the answer
     Silence silence = Silence::no_answer;  ///< why there is none, if frames is empty
 };
 

@@ -26,9 +26,9 @@ struct ServerStep
 {
     std::int64_t number = 0;
     coupling::ServerTimes times;
-    double computing = 0;        ///< the particles began to move [s]
-    coupling::Timings timings;   ///< the same that the client is told
-    double done = 0;             ///< logs and checkpoints were written [s]
+    double computing = 0;       ///< the particles began to move [s]
+    coupling::Timings timings;  ///< the same that the client is told
+    double done = 0;            ///< logs and checkpoints were written [s]
 };
 
 /// In order of time, without overlap: waiting, exchange, output, DEM, mapping, exchange, records.

@@ -71,9 +71,9 @@ public:
     /// Step n with the fluid FluidArrays(cells, 100 rank + n).
     coupling::SolidFields const& step_of(std::size_t rank, int n)
     {
-        auto const& solid = clients[rank].begin_step(
-            step(n), FluidArrays(cells(rank), 100.0 * static_cast<double>(rank) + n).view(),
-            {{"courant_max", static_cast<double>(rank), "1"}});
+        auto const& solid =
+            clients[rank].begin_step(step(n), FluidArrays(cells(rank), 100.0 * static_cast<double>(rank) + n).view(),
+                                     {{"courant_max", static_cast<double>(rank), "1"}});
         return solid;
     }
 

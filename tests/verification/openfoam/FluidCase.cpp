@@ -118,7 +118,8 @@ Vector cell_centre(FluidCase const& fluid, std::size_t c)
     return x;
 }
 
-FluidProcess::FluidProcess(FluidCase const& fluid) : ranks_(static_cast<int>(fluid.cuts[0] * fluid.cuts[1] * fluid.cuts[2]))
+FluidProcess::FluidProcess(FluidCase const& fluid)
+    : ranks_(static_cast<int>(fluid.cuts[0] * fluid.cuts[1] * fluid.cuts[2]))
 {
     std::string name = (std::filesystem::temp_directory_path() / "gimdem-fluid-XXXXXX").string();
     if (!::mkdtemp(name.data())) throw std::runtime_error("no folder for temporary files");

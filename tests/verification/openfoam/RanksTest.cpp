@@ -67,8 +67,8 @@ double largest(std::vector<std::array<double, N>> const& values)
 }
 
 template <std::size_t N>
-double difference(std::vector<std::array<double, N>> const& a, std::size_t i, std::vector<std::array<double, N>> const& b,
-                  std::size_t j)
+double difference(std::vector<std::array<double, N>> const& a, std::size_t i,
+                  std::vector<std::array<double, N>> const& b, std::size_t j)
 {
     double most = 0;
     for (std::size_t d = 0; d < N; ++d)
@@ -76,8 +76,8 @@ double difference(std::vector<std::array<double, N>> const& a, std::size_t i, st
     return most;
 }
 
-/// The pressure is solved to 1e-12 of its first residual. An error grows by the condition of the matrix, 1e2 for 8 cells
-/// in a row, in each of 20 steps: 2e-9 of the largest value.
+/// The pressure is solved to 1e-12 of its first residual. An error grows by the condition of the matrix, 1e2 for 8
+/// cells in a row, in each of 20 steps: 2e-9 of the largest value.
 double constexpr tolerance = 2e-9;
 
 void expect_same(Fluid const& one, Fluid const& many)
@@ -87,9 +87,8 @@ void expect_same(Fluid const& one, Fluid const& many)
     EXPECT_EQ(one.mesh.points.size(), many.mesh.points.size());
     EXPECT_EQ(one.time, many.time);
     auto const place = places(many);
-    double const pressure =
-        std::abs(*std::max_element(one.pressure.begin(), one.pressure.end(),
-                                   [](double a, double b) { return std::abs(a) < std::abs(b); }));
+    double const pressure = std::abs(*std::max_element(one.pressure.begin(), one.pressure.end(),
+                                                       [](double a, double b) { return std::abs(a) < std::abs(b); }));
     for (auto const& [where, i] : places(one))
     {
         ASSERT_TRUE(place.count(where));

@@ -44,7 +44,7 @@ struct ServerOptions
     std::string keys;           ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
     /// Told what a user may like to know, such as who was turned away; on another thread, and it must not block.
     std::function<void(std::string const&)> log;
-    double clock_origin = 0;    ///< when the run began, by clock_now() [s]; 0: now
+    double clock_origin = 0;  ///< when the run began, by clock_now() [s]; 0: now
 };
 
 /// What the case file fixes and the client is told.

@@ -3,8 +3,8 @@
 ///
 ///     Status const status = query_status("ipc:///tmp/run/socket", 5);
 ///
-/// The question opens no session and changes nothing: a thread of the server answers it, also while its program computes
-/// or hangs. A server answers 20 questions a second and lets the others lie.
+/// The question opens no session and changes nothing: a thread of the server answers it, also while its program
+/// computes or hangs. A server answers 20 questions a second and lets the others lie.
 #pragma once
 
 #include <cstdint>
@@ -41,18 +41,18 @@ struct RunStatus
 struct Status
 {
     RunStatus run;
-    std::string server;                  ///< name and version
-    std::string protocol;                ///< "1.1"
-    std::string state;                   ///< of the session, docs/protocol.md
-    double state_time = not_known;       ///< in that state for so long [s]
-    std::int64_t step = 0;               ///< where the server is
-    double uptime = not_known;           ///< listening for so long [s]
-    double memory = not_known;           ///< resident, of the server's process [B]
-    std::int64_t process = 0;            ///< number of the server's process on its machine
-    std::string client;                  ///< name; empty: there is none
-    std::string client_state;            ///< as it last told
-    double client_silence = not_known;   ///< since it was last heard [s]
-    ClockOffset clock{0, not_known};     ///< of client and server
+    std::string server;                 ///< name and version
+    std::string protocol;               ///< "1.1"
+    std::string state;                  ///< of the session, docs/protocol.md
+    double state_time = not_known;      ///< in that state for so long [s]
+    std::int64_t step = 0;              ///< where the server is
+    double uptime = not_known;          ///< listening for so long [s]
+    double memory = not_known;          ///< resident, of the server's process [B]
+    std::int64_t process = 0;           ///< number of the server's process on its machine
+    std::string client;                 ///< name; empty: there is none
+    std::string client_state;           ///< as it last told
+    double client_silence = not_known;  ///< since it was last heard [s]
+    ClockOffset clock{0, not_known};    ///< of client and server
 };
 
 /// Asks the server at that endpoint. CouplingError: endpoint (nobody listens there), protocol (not a gimdem server),

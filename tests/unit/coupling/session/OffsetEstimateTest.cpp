@@ -59,7 +59,7 @@ TEST(OffsetEstimate, FollowsClocksThatDrift)
     OffsetEstimate estimate;
     for (int second = 0; second < 36000; second += 10)
     {
-        double const offset = 5 + 1e-5 * second;  // 10 parts per million
+        double const offset = 5 + 1e-5 * second;         // 10 parts per million
         double const delay = second == 0 ? 1e-5 : 1e-3;  // nothing later is as good as the first
         exchange(estimate, 1e5 + second, offset, delay, 0.01, 0.1 * delay);
         ClockOffset const now = *estimate.at(1e5 + second + offset);

@@ -168,7 +168,8 @@ TEST_F(RankFault, TwoRanksOfOneNumberAreRefused)
             client->clients[rank].send_mesh(view_of(client->pieces.parts[rank]));
         });
 
-    EXPECT_THAT(served.get(), AllOf(StartsWith("protocol: "), HasSubstr("rank 1 of 3"), HasSubstr("rank 2 of 3 is due")));
+    EXPECT_THAT(served.get(),
+                AllOf(StartsWith("protocol: "), HasSubstr("rank 1 of 3"), HasSubstr("rank 2 of 3 is due")));
     EXPECT_THAT(words, Each(HasSubstr("rank 2 of 3 is due")));
 }
 

@@ -46,7 +46,7 @@ TEST(ServerSlices, AreTheStationsOfAStep)
 {
     ServerTimes const times{.asked = 1, .arrived = 1.5, .handed_out = 1.6, .answering = 3, .answered = 3.25};
     ServerStep const step{7, times, 1.8, {.compute = 0.7, .mapping = 0.4, .output = 0.1}, 3.5};
-    Lengths const expected{{"waiting", 0.5}, {"exchange", 0.1},  {"output", 0.1}, {"DEM", 0.7},
+    Lengths const expected{{"waiting", 0.5}, {"exchange", 0.1},  {"output", 0.1},  {"DEM", 0.7},
                            {"mapping", 0.4}, {"exchange", 0.25}, {"records", 0.25}};
     EXPECT_EQ(in_order(slices_of(step), 1, 3.5), expected);
 }
