@@ -190,6 +190,7 @@ Event Client::Impl::begin_event() const
 void Client::Impl::send_fluid(Event call, FluidState const& given, Time entered)
 {
     session.require(call);
+    if (call == Event::iterate_step) record.ended(entered, entered, 0);
     fluid = given;
     message::Message message = message::lay_out(fluid, terms);
     shared.confirm(message);

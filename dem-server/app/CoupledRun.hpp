@@ -62,7 +62,7 @@ private:
     /// Returns how long output took [s].
     double begin_step(coupling::FluidState const& fluid, double waited);
     /// The same for a pass after the first.
-    double repeat_step();
+    double repeat_step(double waited);
     /// The step that was answered last stands.
     void accept();
     void require_same(coupling::ClientInfo const& client) const;
@@ -90,6 +90,7 @@ private:
     std::int64_t complete_step_ = 0;  ///< of the newest checkpoint to which the client has a fluid
     bool is_asked_ = false;           ///< the client asks for checkpoints
     std::int64_t kept_ = -1;          ///< step of the last checkpoint
+    bool is_in_step_ = false;         ///< the particles move: theirs is the state of no time
 };
 
 }  // namespace gimdem::app

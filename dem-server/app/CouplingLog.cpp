@@ -56,10 +56,11 @@ void CouplingLog::answered(coupling::FluidState const& fluid, StepReport const& 
     if (fluid.pass == 0) running_->lag = lag_.measure(engine.fields(), fluid.fields.velocity);
 }
 
-void CouplingLog::close(coupling::FluidState const& next, Time now, double server_waiting, double bytes)
+void CouplingLog::close(coupling::FluidState const& next, Time now, double waited, double bytes)
 {
     output::StepTimes const times{running_->dem, next.previous.compute + next.previous.output,
                                   std::chrono::duration<double>(now - running_->began).count()};
+    double const server_waiting = running_->server_waiting + waited;
     double const client_waiting = next.waiting - running_->client_waiting;
     overlap_.add(times);
     server_waiting_ += server_waiting;

@@ -25,6 +25,8 @@ public:
     /// The fluid of a step has come, after so long a wait [s]: the step before is over, its row is written. bytes: that
     /// the exchange has moved so far.
     void arrived(coupling::FluidState const& fluid, double waited, double bytes);
+    /// The fluid of another pass through the same step has come, after so long a wait [s].
+    void came_again(double waited) { running_->server_waiting += waited; }
     /// The solid has been computed.
     void answered(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine);
 
@@ -43,6 +45,7 @@ private:
         coupling::Step step;
         Time began;
         double client_waiting = 0;  ///< of the client so far, when the step began [s]
+        double server_waiting = 0;  ///< between the passes [s]
         double exchange = 0;        ///< likewise [s]
         double bytes = 0;           ///< that had been moved then
         bool fluid_was_wanted = false;
@@ -52,7 +55,7 @@ private:
         LagError lag;
     };
 
-    void close(coupling::FluidState const& next, Time now, double server_waiting, double bytes);
+    void close(coupling::FluidState const& next, Time now, double waited, double bytes);
 
     bool iterates_;
     output::TimeSeries series_;
