@@ -26,9 +26,9 @@ struct Options
     double grace_time = 0;                         ///< a lost client may come back within it [s]
     output::TraceChoice trace;
     coupling::Encodings encodings{.sparse = true};  ///< of the fields, where the client can do them
-    std::optional<std::string> status;  ///< ask the server at this endpoint how its run stands, and stop
-    bool json = false;                  ///< the answer for programs
-    double patience = 5;                ///< for the answer [s]
+    std::optional<std::string> status;              ///< ask the server at this endpoint how its run stands, and stop
+    bool json = false;                              ///< the answer for programs
+    double patience = 5;                            ///< for the answer [s]
 };
 
 /// Empty when the program has nothing to do (help, version, wrong usage): exit_code tells the status.
