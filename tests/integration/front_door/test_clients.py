@@ -5,11 +5,16 @@ from __future__ import annotations
 import csv
 import os
 import shutil
+import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 from front_door import ROOT, FrontDoorTest
+
+sys.path.insert(0, str(ROOT / "tools"))
+from clients import find_client  # noqa: E402
 
 CASE = ROOT / "cases" / "column-bed"
 BUILD = Path(os.environ.get("GIMDEM_BUILD_DIR") or ROOT / "build" / "release")
@@ -40,11 +45,23 @@ class Clients(FrontDoorTest):
         text = "".join(f"{name} {value!r}\n" for name, value in self.settings.items())
         (self.case / "constant" / "column").write_text(text)
 
-    def run_client(self, name: str, until: float, *options: str) -> Path:
-        """The run folder."""
-        folder = self.folder / f"run of {Path(name).name} {len(list(self.folder.iterdir()))}"
-        code, _, err = self.gimdem("run", self.case, "--client", name, "--until", str(until), "--output", folder, *options)
-        self.assertEqual(code, 0, err)
+    def run_pair(self, name: str, until: float, schedule: str = "serial") -> Path:
+        """Server and client, started as the launcher does it, without its plots; returns the run folder."""
+        folder = self.folder / f"{schedule} run of {name}"
+        shutil.copytree(self.case / "constant", folder / "constant")
+        endpoint = f"ipc://{self.folder}/{name}.socket"
+        command = [BUILD / "bin" / "gimdem-server", "--case", self.case / "case.toml", "--run", folder, "--endpoint",
+                   endpoint, "--until", str(until), "--schedule", schedule]
+        with (folder / "log.server").open("w") as log:
+            server = subprocess.Popen([str(word) for word in command], stdout=log, stderr=log)
+        try:
+            client = subprocess.run(find_client(name).start_command(folder, endpoint, ""), capture_output=True, text=True,
+                                    timeout=200)
+            self.assertEqual(client.returncode, 0, client.stderr)
+            self.assertEqual(server.wait(60), 0, (folder / "log.server").read_text())
+        finally:
+            server.kill()
+            server.wait()
         return folder
 
     @staticmethod
@@ -57,8 +74,8 @@ class Clients(FrontDoorTest):
         return sum(values) / len(values)
 
     def test_all_give_the_same_bits_and_carry_the_bed(self) -> None:
-        until = 0.25  # the bed is fluidised since 0.22 s
-        folders = [self.run_client(name, until) for name in CLIENTS]
+        until = 0.25  # the bed is fluidised since 0.16 s
+        folders = [self.run_pair(name, until) for name in CLIENTS]
         one = self.table(folders[0] / "column.csv")
         self.assertEqual(len(one["time"]), 250)
         for folder in folders[1:]:
@@ -87,13 +104,13 @@ class Clients(FrontDoorTest):
         self.assertLess(worst, 1e-13)
 
     def test_overlapped(self) -> None:
-        one, other = (self.table(self.run_client(name, 0.03, "--schedule", "overlapped") / "column.csv")
+        one, other = (self.table(self.run_pair(name, 0.03, "overlapped") / "column.csv")
                       for name in ("column-c", "column-python"))
         self.assertEqual(one, other)
 
     def test_fixed_bed_has_the_pressure_drop_of_the_drag_law(self) -> None:
         self.set(inflow=0.3, ramp_time=0.02)
-        folder = self.run_client("column-cpp", 0.06)
+        folder = self.run_pair("column-cpp", 0.06)
         profile = self.table(folder / "profile.csv")
         height = self.settings["height"] / self.settings["cells"]
         law = sum(height * self.beetstra(alpha, 0.3) for alpha in profile["void_fraction"])
@@ -119,7 +136,9 @@ class Clients(FrontDoorTest):
         mine = self.folder / "my-solver"
         mine.write_text(f'#!/bin/sh\nexec "{BUILD}/bin/column-cpp" "$@"\n')
         mine.chmod(0o755)
-        folder = self.run_client(str(mine), 0.002)
+        folder = self.folder / "run of mine"
+        code, _, err = self.gimdem("run", self.case, "--client", mine, "--until", "0.002", "--output", folder)
+        self.assertEqual(code, 0, err)
         self.assertTrue((folder / "log.my-solver").exists())
         self.assertEqual(len(self.table(folder / "column.csv")["time"]), 2)
 
