@@ -52,8 +52,8 @@ struct Server::Impl : session::Exchange
     void look_for_loss() override { session.look_for_loss("all ranks"); }
     bool has_failed() const override { return session.state() == State::failed; }
 
-    /// Of a client in several processes none are saved.
-    bool saves_checkpoints() const { return saver && !ranks && !expected_rank; }
+    /// Of several ranks, rank 0 asks for all.
+    bool saves_checkpoints() const { return saver && !expected_rank; }
     void wait_for_contact();
     void check_rank(Rank const& rank);
     void listen_for_others(Rank const& first);
