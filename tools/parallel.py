@@ -99,7 +99,7 @@ def reconstruct(folder: Path, keep: bool = False) -> str:
 
 def reconstruct_before_restart(case: CaseDescription, wanted: str | None) -> None:
     """What a launcher that was killed has left. The parts are kept: the run may be alive."""
-    if wanted is None or case.client == "none":
+    if wanted is None or case.client != "openfoam":
         return
     if wanted == "latest":
         folders = sorted((case.folder / "runs").glob("[0-9]*"))[-1:]

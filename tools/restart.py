@@ -2,6 +2,7 @@
 """From which checkpoint a run goes on, and what the fluid needs to go on with it."""
 from __future__ import annotations
 
+import hashlib
 import json
 import re
 import shutil
@@ -10,30 +11,59 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from case_folder import CaseDescription
-from console import UserError, shown
+from console import UserError, say, shown
 
-CHECKPOINT = re.compile(r"step_(\d+)_at_([-+.e\d]+)\.h5")
-FLUID = ("U", "p", "alphaPhi")  # without them the fluid does not go on where it was
-# Names of OpenFOAM's time folders have six digits or more; two checkpoints are farther apart than that.
-NAME_TOLERANCE = 2e-6
+RECORD = Path("uniform") / "gimdemCheckpoint"  # in a time folder: it is whole, and belongs to a checkpoint
+CHECKPOINT = re.compile(r'^checkpoint\s+"([^"/]+)";', re.MULTILINE)
+STEP = re.compile(r'^step\s+"(\d+)";', re.MULTILINE)
+FILE = re.compile(r'"([^"]+)"\s+"(\d+)"\s+"([0-9a-f]{40})"')
 
 
 @dataclass
 class Restart:
-    """A checkpoint of the particles and, in a coupled run, the fields of the fluid at the same time."""
+    """A checkpoint of the particles and, in a coupled run, the time folder that is whole and belongs to it."""
 
     checkpoint: Path
-    fluid: Path | None = None  # folder of the time, in the run that wrote the checkpoint
+    fluid: Path | None = None  # in the run that wrote the checkpoint
 
     def copy_fluid(self, folder: Path) -> None:
-        """Give the client of a new run the fields and the mesh, and have it start from them."""
+        """Give the client of a new run the fields and the mesh."""
         if self.fluid is None:
             return
         shutil.copytree(self.fluid, folder / self.fluid.name, dirs_exist_ok=True)
         shutil.copytree(self.fluid.parent / "constant" / "polyMesh", folder / "constant" / "polyMesh",
                         dirs_exist_ok=True)
-        with (folder / "system" / "controlDict").open("a") as control:
-            control.write("\nstartFrom       latestTime; // --restart: the last entry counts\n")
+
+
+@dataclass
+class Pair:
+    """A time folder with a record, which may be damaged."""
+
+    fluid: Path
+    record: str
+
+    @property
+    def step(self) -> int:
+        told = STEP.search(self.record)
+        return int(told[1]) if told else -1
+
+    @property
+    def checkpoint(self) -> Path:
+        told = CHECKPOINT.search(self.record)
+        return self.fluid.parent / "checkpoints" / (told[1] if told else "unknown")
+
+    def fault(self) -> str:
+        """What is wrong with it; empty: nothing. The server checks its checkpoint itself."""
+        if not self.checkpoint.is_file():
+            return f"there is no {shown(self.checkpoint)}"
+        files = FILE.findall(self.record)
+        for name, size, sha1 in files:
+            file = self.fluid / name
+            if not file.is_file() or file.stat().st_size != int(size):
+                return f"{name} is absent or cut short"
+            if hashlib.sha1(file.read_bytes()).hexdigest() != sha1:
+                return f"{name} is damaged (its checksum is another)"
+        return "" if files else f"{RECORD} is damaged"
 
 
 def find_restart(case: CaseDescription, wanted: str | None) -> Restart | None:
@@ -52,46 +82,44 @@ def find_restart(case: CaseDescription, wanted: str | None) -> Restart | None:
 def latest(case: CaseDescription) -> Restart:
     """The newest checkpoint of the newest run of a case that has one, with its fluid."""
     for run in sorted((case.folder / "runs").glob("[0-9]*"), reverse=True):
-        for file in sorted((run / "checkpoints").glob("step_*.h5"), reverse=True):
-            if case.client == "none":
+        if case.client == "none":
+            for file in sorted((run / "checkpoints").glob("step_*.h5"), reverse=True):
                 return Restart(file)
-            if time_folder(file):
-                return Restart(file, fluid_of(file, case))
+            continue
+        for pair in pairs_of(run):
+            fault = pair.fault()
+            if not fault:
+                return Restart(pair.checkpoint, of_same_grid(pair, case))
+            say("restart", f"not from {shown(pair.fluid)}: {fault}")
     raise UserError(f"no run of {shown(case.folder)} left a checkpoint (--restart latest goes on from one); run it "
                     "from the start, or give the checkpoint's path", 2)
 
 
 def fluid_of(checkpoint: Path, case: CaseDescription) -> Path:
-    """The fluid's fields at the time of a checkpoint."""
-    folder = time_folder(checkpoint)
-    if folder is None:
-        times = ", ".join(f"{time.name} s" for _, time in sorted(times_of(checkpoint.parents[1]))) or "none"
-        raise UserError(f"{shown(checkpoint)} has no fields of the fluid at its time (they must be of one time; there "
-                        f"are: {times}); make [output] checkpoint_interval a multiple of writeInterval in "
-                        "system/controlDict, or restart from another checkpoint", 2)
-    record = folder.parent / "run.json"
+    """The fluid's fields that belong to a checkpoint."""
+    pairs = list(pairs_of(checkpoint.parents[1]))
+    for pair in pairs:
+        if pair.checkpoint == checkpoint:
+            fault = pair.fault()
+            if fault:
+                raise UserError(f"{shown(pair.fluid)}, the fluid of {shown(checkpoint)}, cannot be gone on from: "
+                                f"{fault}; restart from another checkpoint", 2)
+            return of_same_grid(pair, case)
+    whole = ", ".join(pair.checkpoint.name for pair in pairs) or "none"
+    raise UserError(f"{shown(checkpoint)} has no fields of the fluid (the client wrote none at its time, or died while it "
+                    f"wrote them); restart from one that has: {whole}", 2)
+
+
+def of_same_grid(pair: Pair, case: CaseDescription) -> Path:
+    record = pair.fluid.parent / "run.json"
     grid = json.loads(record.read_text())["settings"]["grid"] if record.is_file() else case.grid
     if grid != case.grid:
-        raise UserError(f"{shown(checkpoint)} is of a run on grid {grid} (its fields do not fit grid {case.grid}); "
+        raise UserError(f"{shown(pair.checkpoint)} is of a run on grid {grid} (its fields do not fit grid {case.grid}); "
                         f"give --grid {grid}", 2)
-    return folder
+    return pair.fluid
 
 
-def time_folder(checkpoint: Path) -> Path | None:
-    told = CHECKPOINT.fullmatch(checkpoint.name)
-    if not told:
-        return None
-    time = float(told[2])
-    near = (folder for at, folder in times_of(checkpoint.parents[1]) if abs(at - time) <= NAME_TOLERANCE * abs(time))
-    return next(near, None)
-
-
-def times_of(run: Path) -> Iterator[tuple[float, Path]]:
-    """The time folders of a run that hold a whole state of the fluid."""
-    for folder in run.iterdir():
-        try:
-            time = float(folder.name)
-        except ValueError:
-            continue
-        if all((folder / name).is_file() for name in FLUID):
-            yield time, folder
+def pairs_of(run: Path) -> Iterator[Pair]:
+    """The time folders of a run that the client has told to be whole, newest first."""
+    found = [Pair(record.parents[1], record.read_text(errors="replace")) for record in run.glob(f"*/{RECORD}")]
+    yield from sorted(found, key=lambda pair: pair.step, reverse=True)

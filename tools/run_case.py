@@ -89,7 +89,7 @@ def refuse_what_is_to_come(client: str | None, device: str) -> None:
     """Options whose meaning is settled but that nothing implements here."""
     if client == "reference":
         raise UserError("the reference client is not part of this version; use --client openfoam", 2)
-    if client:
+    if client not in (None, "none"):
         find_client(client)
     if device == "cuda" and not is_built_with_cuda():
         raise UserError("this build computes particles on the CPU only; use --device cpu, or leave it out, or build "
@@ -167,8 +167,10 @@ class Run:
 
     def start_client(self, scratch: parallel.Scratch) -> subprocess.Popen[bytes]:
         assert self.client is not None
-        command = parallel.command(self.client.start_command(self.folder, self.endpoint.address, self.case.keys),
-                                   self.ranks)
+        alone = self.client.start_command(self.folder, self.endpoint.address, self.case.keys)
+        if self.restart and self.restart.fluid:
+            alone += ["-restart", self.restart.fluid.name]
+        command = parallel.command(alone, self.ranks)
         environment = {**self.client.environment(), "GIMDEM_CLIENT_LOG": str(self.folder / "log.client.jsonl")}
         with self.client_log.open("ab") as log:
             return spawn(command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder,

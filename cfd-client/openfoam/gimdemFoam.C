@@ -36,6 +36,7 @@ Description
 #include "sigFpe.H"
 
 #include "couplingClient.H"
+#include "fluidCheckpoint.H"
 #include "halfCells.H"
 
 #ifdef __GLIBC__
@@ -76,12 +77,14 @@ static void simulate
     std::unique_ptr<couplingClient>& server
 )
 {
-    #include "createTime.H"
+    Info<< "Create time\n" << endl;
+    resumableTime runTime(args);
+    const auto resumed = fluidCheckpoint::resume(runTime, args);
 
     // Ctrl-C is the server's: it asks for an orderly end
     std::signal(SIGINT, SIG_IGN);
 
-    server.reset(new couplingClient(runTime, args));
+    server.reset(new couplingClient(runTime, args, resumed));
     couplingClient& particles = *server;
 
     #include "createMesh.H"
@@ -93,7 +96,10 @@ static void simulate
     particles.connect(rho, mu);
     runTime.setEndTime(particles.endTime());
     particles.sendMesh(mesh);
-    particles.getSolid(alpha, K, M);
+    if (!resumed)
+    {
+        particles.getSolid(alpha, K, M);
+    }
     const label fluidSteps = particles.fluidSteps();
 
     #include "initialFlux.H"
@@ -115,7 +121,7 @@ static void simulate
         catch (const std::exception&)
         {
             // Keep the fluid where the particles ended
-            runTime.writeNow();
+            runTime.writeFields();
             throw;
         }
 
@@ -180,9 +186,13 @@ static void simulate
         if (writeDue)
         {
             // Only here do both solvers stand at the same time
-            runTime.writeNow();
+            runTime.writeFields();
         }
         particles.endStep(compute, clock.timeIncrement());
+        if (writeDue)
+        {
+            particles.saveCheckpoint(runTime);
+        }
 
         #include "reportStep.H"
 
@@ -190,9 +200,10 @@ static void simulate
         #include "setTimeStep.H"
     }
 
-    if (!runTime.writeTime())
+    if (!runTime.isWritten())
     {
-        runTime.writeNow();
+        runTime.writeFields();
+        particles.saveCheckpoint(runTime);
     }
     particles.finish
     (
@@ -265,6 +276,9 @@ int main(int argc, char *argv[])
 {
     keepFreedMemory();
 
+    // A limit of file sizes is an error of writing, as a full disk is
+    std::signal(SIGXFSZ, SIG_IGN);
+
     argList::addNote
     (
         "The fluid of a coupled run: volume-averaged Navier-Stokes equations,"
@@ -272,6 +286,7 @@ int main(int argc, char *argv[])
     );
     argList::addBoolOption("verbose", "print each linear solver's residuals");
     couplingClient::addOptions();
+    fluidCheckpoint::addOptions();
 
     #include "setRootCase.H"
 

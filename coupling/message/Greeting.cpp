@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "message/CheckpointMessages.hpp"
 #include "message/Fields.hpp"
 
 namespace gimdem::coupling::message
@@ -95,6 +96,7 @@ Message pack(Hello const& hello)
         body.add_wants(name);
     if (hello.schedule) body.set_schedule(to_wire(*hello.schedule));
     body.set_timeout(hello.timeout);
+    if (hello.resume) pack_resume_point(*hello.resume, body);
     body.set_iterates(hello.iterates);
     pack_rank(hello.rank, body);
     return message;
@@ -110,6 +112,7 @@ Message pack(Welcome const& welcome)
     body.set_end_time(welcome.end_time);
     for (std::string const& name : welcome.needs)
         body.add_needs(name);
+    body.set_saves_checkpoints(welcome.saves_checkpoints);
     body.set_fluid_steps(welcome.fluid_steps);
     if (welcome.schedule == Schedule::iterated) pack_iteration(welcome.iteration, *body.mutable_iteration());
     for (std::string const& endpoint : welcome.rank_endpoints)
@@ -126,6 +129,7 @@ Hello unpack_hello(Message const& message)
     hello.wants.assign(body.wants().begin(), body.wants().end());
     hello.schedule = from_wire(body.schedule());
     hello.timeout = body.timeout();
+    hello.resume = unpack_resume_point(body);
     hello.iterates = body.iterates();
     hello.rank = unpack_rank(body);
 
@@ -149,6 +153,7 @@ Welcome unpack_welcome(Message const& message)
     welcome.schedule = *schedule;
     welcome.end_time = body.end_time();
     welcome.needs.assign(body.needs().begin(), body.needs().end());
+    welcome.saves_checkpoints = body.saves_checkpoints();
     welcome.fluid_steps = std::max(1, body.fluid_steps());
     if (*schedule == Schedule::iterated) welcome.iteration = unpack_iteration(body.iteration());
     welcome.rank_endpoints.assign(body.rank_endpoints().begin(), body.rank_endpoints().end());

@@ -21,6 +21,7 @@ struct Hello
     std::vector<std::string> wants;
     std::optional<Schedule> schedule;
     double timeout = 0;  ///< of the client [s]
+    std::optional<ResumePoint> resume;
     bool iterates = false;
     Rank rank;
 };

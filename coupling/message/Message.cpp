@@ -53,6 +53,10 @@ std::string kind_name(Kind kind)
             return "Error";
         case Kind::kGoodbye:
             return "Goodbye";
+        case Kind::kCheckpoint:
+            return "Checkpoint";
+        case Kind::kCheckpointSaved:
+            return "CheckpointSaved";
         case Kind::kStatusRequest:
             return "StatusRequest";
         case Kind::kStatus:

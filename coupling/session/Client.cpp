@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gimdem/coupling/Status.hpp"
+#include "message/CheckpointMessages.hpp"
 #include "message/Greeting.hpp"
 #include "message/MeshMessage.hpp"
 #include "message/StepMessages.hpp"
@@ -35,6 +36,7 @@ struct Client::Impl
     void connect(FluidProperties const& fluid);
     void send_mesh(MeshView const& mesh);
     void begin_step(Step const& step, FluidFields const& fluid, std::vector<Monitor> const& monitors);
+    SavedCheckpoint save_checkpoint(CheckpointRequest const& request);
     void iterate_step(FluidFields const& estimate, double residual);
     void end_step(Timings const& timings, double residual);
     void send_fluid(Event call, FluidState const& fluid, Time entered);
@@ -105,6 +107,7 @@ void Client::Impl::connect(FluidProperties const& fluid)
                                                           .wants = options.wants,
                                                           .schedule = options.schedule,
                                                           .timeout = options.timeout,
+                                                          .resume = options.resume,
                                                           .iterates = options.iterates,
                                                           .rank = options.rank});
     shared.offer(hello);
@@ -183,6 +186,7 @@ Event Client::Impl::begin_event() const
 void Client::Impl::send_fluid(Event call, FluidState const& fluid, Time entered)
 {
     session.require(call);
+    if (call == Event::iterate_step) record.ended(entered, entered, 0);
     message::Message message = message::lay_out(fluid, terms);
     shared.confirm(message);
     record.put_into_fluid(message);
@@ -218,6 +222,21 @@ void Client::Impl::end_step(Timings const& timings, double residual)
     Time const arrival = take_solid();
     Time const left = Clock::now();
     record.ended(entered, left, clock.answered_overlapped(entered, arrival, left, solid.busy_time));
+}
+
+SavedCheckpoint Client::Impl::save_checkpoint(CheckpointRequest const& request)
+{
+    session.require(Event::save_checkpoint);
+    if (!welcome.saves_checkpoints)
+        throw CouplingError(Fault::user, session.peer_name() +
+                                             " saves no checkpoints when asked (Welcome::saves_checkpoints tells); "
+                                             "do not ask for one");
+    message::Message message = message::pack(request);
+    session.look_for_trouble("the fluid of its program");
+    session.advance(Event::save_checkpoint);
+    session.send(std::move(message));
+    session::Letter const letter = receive("CheckpointSaved");
+    return session.read([&] { return message::unpack_saved_checkpoint(letter.message); });
 }
 
 void Client::Impl::finish(std::string const& reason)
@@ -300,6 +319,13 @@ SolidFields const& Client::iterate_step(FluidFields const& estimate, double resi
 void Client::end_step(Timings const& timings, double residual)
 {
     impl_->guard([&] { impl_->end_step(timings, residual); });
+}
+
+SavedCheckpoint Client::save_checkpoint(double time, std::int64_t complete_step)
+{
+    SavedCheckpoint saved;
+    impl_->guard([&] { saved = impl_->save_checkpoint({time, complete_step}); });
+    return saved;
 }
 
 void Client::finish(std::string const& reason)

@@ -17,15 +17,16 @@ std::string rank_text(std::size_t rank)
     return "rank " + std::to_string(rank);
 }
 
-bool is_same(Step const& a, Step const& b)
+bool is_same(FluidState const& a, FluidState const& b)
 {
-    return a.number == b.number && a.time == b.time && a.dt == b.dt;
+    return a.step.number == b.step.number && a.step.time == b.step.time && a.step.dt == b.step.dt && a.pass == b.pass;
 }
 
-std::string text_of(Step const& step)
+std::string text_of(FluidState const& state)
 {
-    return "step " + std::to_string(step.number) + " at " + message::number_text(step.time) +
-           " s with dt = " + message::number_text(step.dt) + " s";
+    return (state.pass > 0 ? "pass " + std::to_string(state.pass) + " of step " : "step ") +
+           std::to_string(state.step.number) + " at " + message::number_text(state.step.time) +
+           " s with dt = " + message::number_text(state.step.dt) + " s";
 }
 
 void take_longest(Timings& longest, Timings const& timings)
@@ -166,9 +167,9 @@ std::optional<FluidState> Ranks::receive_fluid()
 void Ranks::check_same_step(std::vector<FluidState> const& states)
 {
     for (std::size_t rank = 1; rank < states.size(); ++rank)
-        if (!is_same(states[rank].step, states[0].step))
-            fail(Fault::protocol, name_ + " is out of order: rank 0 sent " + text_of(states[0].step) + ", " +
-                                      rank_text(rank) + " " + text_of(states[rank].step) +
+        if (!is_same(states[rank], states[0]))
+            fail(Fault::protocol, name_ + " is out of order: rank 0 sent " + text_of(states[0]) + ", " +
+                                      rank_text(rank) + " " + text_of(states[rank]) +
                                       " (all ranks must take the same steps)");
 }
 

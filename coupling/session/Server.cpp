@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "message/CheckpointMessages.hpp"
 #include "message/ClockMessages.hpp"
 #include "message/Greeting.hpp"
 #include "message/MeshMessage.hpp"
@@ -51,6 +52,8 @@ struct Server::Impl : session::Exchange
     void look_for_loss() override { session.look_for_loss("all ranks"); }
     bool has_failed() const override { return session.state() == State::failed; }
 
+    /// Of a client in several processes none are saved.
+    bool saves_checkpoints() const { return saver && !ranks && !expected_rank; }
     void wait_for_contact();
     void check_rank(Rank const& rank);
     void listen_for_others(Rank const& first);
@@ -63,6 +66,7 @@ struct Server::Impl : session::Exchange
     session::Exchange const& whole() const { return const_cast<Impl*>(this)->whole(); }
 
     session::Letter receive(std::string const& awaited);
+    void save_checkpoint(session::Letter const& letter);
     bool said_goodbye(session::Letter const& letter);
     void check_order(FluidState const& fluid);
     std::optional<std::string> stop_reason();
@@ -84,6 +88,7 @@ struct Server::Impl : session::Exchange
 
     ServerOptions options;
     message::Terms terms;
+    CheckpointSaver saver;
     session::SharedFields shared;    ///< outlives the messages that lie in it
     message::Message fluid_message;  ///< holds the bytes that the spans of the last FluidState show
     session::StepOrder order;
@@ -143,6 +148,7 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
                               .schedule = schedule,
                               .end_time = offered.end_time,
                               .needs = offered.needs,
+                              .saves_checkpoints = saves_checkpoints(),
                               .fluid_steps = offered.fluid_steps,
                               .iteration = offered.iteration,
                               .rank_endpoints = ranks ? ranks->endpoints() : std::vector<std::string>()});
@@ -158,6 +164,7 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
                     .fluid = hello.fluid,
                     .wants = hello.wants,
                     .schedule = hello.schedule,
+                    .resume = hello.resume,
                     .iterates = hello.iterates,
                     .ranks = hello.rank.count};
     if (ranks) ranks->wait_for_others(info, offered);
@@ -239,6 +246,8 @@ std::optional<FluidState> Server::Impl::receive_fluid()
     if (session.state() == State::finished) return std::nullopt;
 
     session::Letter letter = receive("FluidState");
+    for (; letter.message.kind() == message::Kind::kCheckpoint; letter = receive("FluidState"))
+        save_checkpoint(letter);
     if (said_goodbye(letter)) return std::nullopt;
 
     session.set_step(letter.message.envelope.step());
@@ -255,6 +264,18 @@ std::optional<FluidState> Server::Impl::receive_fluid()
     times.handed_out = transport::on_clock(handed_out);
     if (fluid.clock) session.status_desk().publish(*fluid.clock);
     return fluid;
+}
+
+void Server::Impl::save_checkpoint(session::Letter const& letter)
+{
+    CheckpointRequest const request = session.read([&] { return message::unpack_checkpoint_request(letter.message); });
+    if (!saves_checkpoints())
+        session.fail(Fault::protocol, message::describe(letter.message) + " from " + session.peer_name() +
+                                          " is not allowed (this server saves none, as its Welcome told); do not ask "
+                                          "for one");
+    message::Message answer = message::pack(saver(request));
+    session.advance(Event::checkpoint_is_saved);
+    session.send(std::move(answer));
 }
 
 void Server::Impl::send_solid(SolidFields const& fields, Timings const& timings)
@@ -322,6 +343,11 @@ std::string const& Server::endpoint() const
     return impl_->session.endpoint();
 }
 
+void Server::save_checkpoints_by(CheckpointSaver saver)
+{
+    impl_->saver = std::move(saver);
+}
+
 ClientInfo Server::wait_for_client(ServerTerms const& terms)
 {
     return impl_->guard([&] { return impl_->wait_for_client(terms); });
@@ -360,6 +386,16 @@ std::string const& Server::goodbye_reason() const
 void Server::send_solid(SolidFields const& fields, Timings const& timings)
 {
     impl_->guard([&] { impl_->whole().send_solid(fields, timings); });
+}
+
+bool Server::has_lost_client() const
+{
+    return !impl_->ranks && impl_->session.has_lost_peer();
+}
+
+std::uint64_t Server::session_number() const
+{
+    return impl_->session.session_number();
 }
 
 void Server::abort(std::string const& reason) noexcept

@@ -48,6 +48,9 @@ public:
     std::string const& endpoint() const { return endpoint_; }
     bool is_ipc() const { return endpoint_.rfind("ipc:", 0) == 0; }
     double bytes() const { return bytes_; }
+    std::uint64_t session_number() const { return session_number_; }
+    /// The peer is gone, silent or slow; it has not said why.
+    bool has_lost_peer() const { return has_lost_peer_; }
 
     /// Fault::user, which ends nothing, if the call is not legal now.
     void require(Event call);
@@ -137,6 +140,7 @@ private:
     std::string endpoint_;
     std::string last_fault_;
     double bytes_ = 0;
+    bool has_lost_peer_ = false;
     std::atomic<std::size_t> most_array_bytes_{least_limit};
     std::function<void(std::string const&)> log_;
     std::uint64_t session_number_ = 0;

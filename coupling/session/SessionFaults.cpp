@@ -53,6 +53,7 @@ void Session::fail_by_peer(Message const& message, std::string const& awaited)
 
 void Session::fail_by_ending(transport::Ending const& ending, std::string const& awaited)
 {
+    has_lost_peer_ = true;
     std::string const us = our_name() + " was waiting for " + awaited + " " + here();
     if (ending.kind == transport::Ending::Kind::silent)
         fail(Fault::timeout, peer_name() + " at " + endpoint_ + " has been silent for " + seconds_text(ending.silence) +
@@ -68,6 +69,7 @@ void Session::fail_by_ending(transport::Ending const& ending, std::string const&
 
 void Session::fail_by_delay(std::string const& awaited, double patience)
 {
+    has_lost_peer_ = true;
     fail(Fault::timeout, peer_name() + " at " + endpoint_ + " has not sent " + awaited + " within " +
                              seconds_text(patience) + " (" + last_word() + "); " + our_name() + " was waiting " +
                              here() + "; see what it is doing, or allow more time");

@@ -12,7 +12,7 @@ using S = State;
 using E = Event;
 using message::Kind;
 
-std::array<Rule, 22> constexpr client_table{{
+std::array<Rule, 24> constexpr client_table{{
     {S::created, E::connect, S::greeting},
     {S::greeting, E::welcome, S::welcomed},
     {S::welcomed, E::send_mesh, S::meshing},
@@ -31,6 +31,9 @@ std::array<Rule, 22> constexpr client_table{{
     {S::awaiting, E::solid_state, S::iterating},
     {S::iterating, E::iterate_step, S::awaiting},
     {S::iterating, E::end_step, S::ready},
+    // between two steps
+    {S::ready, E::save_checkpoint, S::saving},
+    {S::saving, E::checkpoint_saved, S::ready},
     // the end
     {S::created, E::finish, S::finished},
     {S::welcomed, E::finish, S::finished},
@@ -41,7 +44,7 @@ std::array<Rule, 22> constexpr client_table{{
     {S::finished, E::finish, S::finished},
 }};
 
-std::array<Rule, 14> constexpr server_table{{
+std::array<Rule, 16> constexpr server_table{{
     {S::listening, E::wait_for_client, S::listening},
     {S::listening, E::hello, S::welcomed},
     {S::welcomed, E::receive_mesh, S::welcomed},
@@ -51,6 +54,9 @@ std::array<Rule, 14> constexpr server_table{{
     {S::ready, E::receive_fluid, S::ready},
     {S::ready, E::fluid_state, S::computing},
     {S::computing, E::send_solid, S::ready},
+    // between two steps
+    {S::ready, E::checkpoint, S::saving},
+    {S::saving, E::checkpoint_is_saved, S::ready},
     // the end
     {S::welcomed, E::goodbye, S::finished},
     {S::meshing, E::goodbye, S::finished},
@@ -107,6 +113,8 @@ std::string name_of(State state)
             return "iterating";
         case S::computing:
             return "computing";
+        case S::saving:
+            return "saving";
         case S::finished:
             return "finished";
         case S::failed:
@@ -131,6 +139,10 @@ std::string name_of(Event event)
             return "iterate_step()";
         case E::end_step:
             return "end_step()";
+        case E::save_checkpoint:
+            return "save_checkpoint()";
+        case E::checkpoint_is_saved:
+            return "saver()";
         case E::finish:
             return "finish()";
         case E::wait_for_client:
@@ -159,6 +171,10 @@ std::string name_of(Event event)
             return message::kind_name(Kind::kSolidState);
         case E::goodbye:
             return message::kind_name(Kind::kGoodbye);
+        case E::checkpoint:
+            return message::kind_name(Kind::kCheckpoint);
+        case E::checkpoint_saved:
+            return message::kind_name(Kind::kCheckpointSaved);
     }
     return "unknown";
 }
@@ -181,6 +197,10 @@ std::optional<Event> event_of(Kind kind)
             return E::solid_state;
         case Kind::kGoodbye:
             return E::goodbye;
+        case Kind::kCheckpoint:
+            return E::checkpoint;
+        case Kind::kCheckpointSaved:
+            return E::checkpoint_saved;
         default:
             return std::nullopt;
     }

@@ -27,6 +27,7 @@ enum class State
     awaiting,     ///< client, iterated: for the solid of this pass, while its program is blocked
     iterating,    ///< client, iterated: for its program to repeat or to end the fluid step
     computing,    ///< server: for its program to answer the fluid
+    saving,       ///< client: for CheckpointSaved; server: for its program to save a checkpoint
     finished,     ///< both: Goodbye was said
     failed        ///< both: a fault ended the session
 };
@@ -43,6 +44,7 @@ enum class Event
     begin_iterated_step,
     iterate_step,
     end_step,
+    save_checkpoint,
     finish,
     // calls of the server's program
     wait_for_client,
@@ -51,6 +53,7 @@ enum class Event
     reject_mesh,
     receive_fluid,
     send_solid,
+    checkpoint_is_saved,
     // messages
     hello,
     welcome,
@@ -58,7 +61,9 @@ enum class Event
     mesh_accepted,
     fluid_state,
     solid_state,
-    goodbye
+    goodbye,
+    checkpoint,
+    checkpoint_saved
 };
 
 /// In state `from`, `event` is legal and leads to state `to`. What no rule allows is refused.

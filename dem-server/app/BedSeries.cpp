@@ -85,6 +85,13 @@ void BedSeries::add(coupling::Step const& step, StepReport const& report, double
 
 // Forces, the pressure drop and the imbalances are those of the interval since the last row (means, means, worst);
 // everything else is of this instant. Forces and momentum are upward components.
+std::int64_t BedSeries::rewind(double time)
+{
+    interval_ = {};
+    last_momentum_ = momentum(system_.particles());
+    return series_ ? series_->keep_before(time) : 0;
+}
+
 void BedSeries::write_row(coupling::FluidState const& fluid, CoupledEngine const& engine)
 {
     ParticleState const& particles = system_.particles();

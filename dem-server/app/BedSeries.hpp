@@ -29,6 +29,8 @@ public:
     void write_row(coupling::FluidState const& fluid, CoupledEngine const& engine);
     /// After a step that stands, with its pressure drop [Pa].
     void add(coupling::Step const& step, StepReport const& report, double pressure_drop);
+    /// The run goes on from an earlier time [s], as the particles do. Returns how many rows are left.
+    std::int64_t rewind(double time);
     double pressure_drop(coupling::FluidFields const& fluid) const;  ///< [Pa], 0 where it is not asked for
 
     /// Null if the case names none.

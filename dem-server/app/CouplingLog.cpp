@@ -34,6 +34,12 @@ void CouplingLog::arrived(coupling::FluidState const& fluid, double waited)
     running_ = {.step = fluid.step, .began = now, .client_waiting = fluid.waiting, .lag = {}};
 }
 
+void CouplingLog::rewind(double time)
+{
+    running_.reset();
+    series_.keep_before(time, 1);
+}
+
 void CouplingLog::answered(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine)
 {
     ++running_->passes;
@@ -42,10 +48,11 @@ void CouplingLog::answered(coupling::FluidState const& fluid, StepReport const& 
     if (fluid.pass == 0) running_->lag = lag_.measure(engine.fields(), fluid.fields.velocity);
 }
 
-void CouplingLog::close(coupling::FluidState const& next, Time now, double server_waiting)
+void CouplingLog::close(coupling::FluidState const& next, Time now, double waited)
 {
     output::StepTimes const times{running_->dem, next.previous.compute + next.previous.output,
                                   std::chrono::duration<double>(now - running_->began).count()};
+    double const server_waiting = running_->server_waiting + waited;
     double const client_waiting = next.waiting - running_->client_waiting;
     overlap_.add(times);
     server_waiting_ += server_waiting;

@@ -24,8 +24,13 @@ public:
 
     /// The fluid of a step has come, after so long a wait [s]: the step before is over, its row is written.
     void arrived(coupling::FluidState const& fluid, double waited);
+    /// The fluid of another pass through the same step has come, after so long a wait [s].
+    void came_again(double waited) { running_->server_waiting += waited; }
     /// The solid has been computed.
     void answered(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine);
+
+    /// The run goes on from an earlier time [s]: rows from there on are written again.
+    void rewind(double time);
 
     /// Figures of all steps but the last, of which the fluid solver never tells.
     void add_to(output::Summary& summary) const;
@@ -39,13 +44,14 @@ private:
         coupling::Step step;
         Time began;
         double client_waiting = 0;  ///< of the client so far, when the step began [s]
+        double server_waiting = 0;  ///< between the passes [s]
         std::int64_t passes = 0;
         std::int64_t dem_steps = 0;  ///< of the last pass
         double dem = 0;              ///< of all passes [s]
         LagError lag;
     };
 
-    void close(coupling::FluidState const& next, Time now, double server_waiting);
+    void close(coupling::FluidState const& next, Time now, double waited);
 
     bool iterates_;
     output::TimeSeries series_;

@@ -44,6 +44,9 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
     app.add_option("--precision", options.precision, "of the contact laws: double or mixed")
         ->check(CLI::IsMember({"double", "mixed"}));
     app.add_option("--restart", options.restart, "checkpoint to go on from");
+    app.add_option("--grace-time", options.grace_time,
+                   "how long a client that was lost may take to come back to its last checkpoint [s]; 0: it may not")
+        ->check(CLI::NonNegativeNumber);
     app.add_option("--trace-steps", options.trace.steps, "write trace.json of so many steps, for Perfetto")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--trace-every", options.trace.every, "of every so many steps")->check(CLI::PositiveNumber);

@@ -22,6 +22,7 @@ struct Options
     std::optional<int> threads;
     std::optional<std::filesystem::path> keys;     ///< folder, docs/security.md
     std::optional<std::filesystem::path> restart;  ///< checkpoint to go on from
+    double grace_time = 0;                         ///< a lost client may come back within it [s]
     output::TraceChoice trace;
     std::optional<std::string> status;  ///< ask the server at this endpoint how its run stands, and stop
     bool json = false;                  ///< the answer for programs

@@ -63,6 +63,13 @@ void RunLog::record(coupling::FluidState const& fluid, StepReport const& report,
                                           .speed_max = fastest(system_.particles())});
 }
 
+void RunLog::rewind(double time)
+{
+    pending_.reset();
+    rows_ = series_.rewind(time);
+    if (frame_count_ > 0) frame_count_ = frames_.resume(time);
+}
+
 void RunLog::accept()
 {
     if (!pending_) return;

@@ -42,6 +42,12 @@ void gimdem::app::heed_interrupts()
     std::signal(SIGTERM, on_interrupt);
 }
 
+void gimdem::app::die_of_interrupts()
+{
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+}
+
 bool gimdem::app::interrupted()
 {
     return interrupt_requested != 0;
@@ -50,6 +56,7 @@ bool gimdem::app::interrupted()
 int main(int argc, char** argv)
 {
     start_with_short_waits(argv);
+    std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is an error of writing, as a full disk is
     int exit_code = 0;
     auto const options = gimdem::app::parse_options(argc, argv, exit_code);
     if (!options) return exit_code;
@@ -57,7 +64,8 @@ int main(int argc, char** argv)
     {
         if (options->status)
         {
-            gimdem::app::print_status(*options->status, options->patience, options->json);
+            gimdem::app::print_status(*options->status, options->patience,
+                                      options->keys.value_or("").string(), options->json);
             return 0;
         }
         gimdem::Case const settings = gimdem::app::read_case_with(*options);
@@ -69,7 +77,7 @@ int main(int argc, char** argv)
         if (settings.run.client == "none")
             gimdem::app::run_alone(settings, options->run_folder, options->restart);
         else
-            gimdem::app::run(settings, options->run_folder, options->restart, options->trace);
+            gimdem::app::run(settings, options->run_folder, options->restart, options->grace_time, options->trace);
         return 0;
     }
     catch (std::exception const& error)

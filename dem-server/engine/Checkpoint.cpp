@@ -5,8 +5,10 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 
 #include "core/Error.hpp"
 #include "engine/ReferenceFile.hpp"
@@ -20,6 +22,7 @@ namespace
 {
 
 constexpr char const* kind = "checkpoint";
+constexpr std::string_view name_begin = "step_";
 
 /// Hash of all that decides how the particles of a case move, files of positions and of walls included.
 std::string case_hash(Case const& settings)
@@ -110,10 +113,33 @@ void check_case(output::SnapshotReader const& reader, Case const& settings, std:
                         file.string(), reader.text("title"), settings.file.string()));
 }
 
+/// Oldest first.
+std::vector<std::filesystem::path> checkpoints_in(std::filesystem::path const& folder)
+{
+    std::vector<std::filesystem::path> files;
+    if (!std::filesystem::exists(folder / "checkpoints")) return files;
+    for (auto const& entry : std::filesystem::directory_iterator(folder / "checkpoints"))
+        if (entry.path().extension() == ".h5") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// The number in the name of a checkpoint; -1: it is not named as one.
+std::int64_t step_of(std::filesystem::path const& file)
+{
+    std::string const name = file.filename().string();
+    if (!name.starts_with(name_begin)) return -1;
+    char const* const digits = name.data() + name_begin.size();
+    std::int64_t step = -1;
+    std::from_chars(digits, name.data() + name.size(), step);
+    return step;
+}
+
 }  // namespace
 
 void write_checkpoint(std::filesystem::path const& file, Case const& settings, RunPoint const& point,
-                      std::vector<Inlet> const& inlets, DemSystem const& system, WeightReuse const* reuse)
+                      std::vector<Inlet> const& inlets, DemSystem const& system, WeightReuse const* reuse,
+                      MappedState const* mapped)
 {
     std::filesystem::create_directories(file.parent_path());
     output::SnapshotWriter writer(file, kind);
@@ -127,11 +153,12 @@ void write_checkpoint(std::filesystem::path const& file, Case const& settings, R
     add_removed(writer, system.removed());
     add_state(writer, system);
     if (reuse != nullptr) add_reference(writer, reuse->reference());
+    if (mapped != nullptr) add_mapped(writer, *mapped);
     writer.commit();
 }
 
 RunPoint read_checkpoint(std::filesystem::path const& file, Case const& settings, std::vector<Inlet>& inlets,
-                         DemSystem& system, WeightReuse* reuse)
+                         DemSystem& system, WeightReuse* reuse, MappedState* mapped)
 {
     output::SnapshotReader const reader(file, kind);
     check_case(reader, settings, inlets.size(), file);
@@ -140,10 +167,12 @@ RunPoint read_checkpoint(std::filesystem::path const& file, Case const& settings
     auto const states = inlets_of(reader);
     auto removed = removed_of(reader);
     auto reference = reuse == nullptr ? WeightReference{} : reference_of(reader);
+    MappedState on_mesh = mapped_of(reader);
     take_state(reader, static_cast<int>(settings.materials.size()), system);
     system.set_next_id(next_id);
     system.removed() = std::move(removed);
     if (reuse != nullptr) reuse->restore(std::move(reference));
+    if (mapped != nullptr) *mapped = std::move(on_mesh);
     for (std::size_t i = 0; i < inlets.size(); ++i)
         inlets[i].restore(states[i]);
     return point;
@@ -160,17 +189,21 @@ void require_time_left(std::filesystem::path const& file, RunPoint const& point,
 
 std::filesystem::path checkpoint_file(std::filesystem::path const& folder, RunPoint const& point)
 {
-    return folder / "checkpoints" / fmt::format("step_{:09}_at_{:.9g}.h5", point.step, point.time);
+    return folder / "checkpoints" / fmt::format("{}{:09}_at_{:.9g}.h5", name_begin, point.step, point.time);
 }
 
-void keep_newest_checkpoints(std::filesystem::path const& folder)
+std::optional<std::filesystem::path> find_checkpoint(std::filesystem::path const& folder, std::int64_t step)
 {
-    std::vector<std::filesystem::path> files;
-    for (auto const& entry : std::filesystem::directory_iterator(folder / "checkpoints"))
-        if (entry.path().extension() == ".h5") files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
+    for (auto const& file : checkpoints_in(folder))
+        if (step_of(file) == step) return file;
+    return std::nullopt;
+}
+
+void keep_newest_checkpoints(std::filesystem::path const& folder, std::int64_t complete_step)
+{
+    auto const files = checkpoints_in(folder);
     for (std::size_t k = 0; k + 3 < files.size(); ++k)
-        std::filesystem::remove(files[k]);
+        if (step_of(files[k]) < complete_step) std::filesystem::remove(files[k]);
 }
 
 }  // namespace gimdem

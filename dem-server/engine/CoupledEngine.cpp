@@ -60,6 +60,7 @@ CoupledEngine::CoupledEngine(Case const& settings, exec::Execution execution, Po
     : settings_(settings),
       execution_(execution),
       mesh_(mesh),
+      mesh_hash_(mesh_hash(mesh.topology())),
       system_(system),
       forces_(execution, settings.fluid_forces, settings.mapping.void_fraction_minimum, fluid),
       mapper_(execution, mesh, settings.mapping),

@@ -8,6 +8,7 @@
 
 #include "core/Case.hpp"
 #include "engine/DemSystem.hpp"
+#include "engine/MappedState.hpp"
 #include "engine/device/DeviceDem.hpp"
 #include "gimdem/coupling/Types.hpp"
 #include "mapping/Mapper.hpp"
@@ -60,6 +61,13 @@ public:
     /// Particles that come during the run; `inlets` outlives the engine.
     void set_inlets(std::vector<Inlet>& inlets) { inlets_ = &inlets; }
 
+    /// For checkpoints: what the last step left on the mesh.
+    MappedState mapped() const;
+    /// Before another state is put into the system: what is known of the particles so far is of no use.
+    void forget_particles();
+    /// Goes on with what a checkpoint had on the mesh, if that was this mesh; else maps the particles as at t = 0.
+    void resume(MappedState const& mapped);
+
     /// For checkpoints; null unless weights are reused.
     WeightReuse* weight_reuse() { return mapper_.reuse(); }
 
@@ -81,6 +89,7 @@ private:
     Case const& settings_;
     exec::Execution execution_;
     PolyMesh const& mesh_;
+    std::string mesh_hash_;
     DemSystem& system_;
     FluidForces forces_;
     Mapper mapper_;

@@ -2,7 +2,11 @@
 #include "output/TimeSeries.hpp"
 
 #include <fcntl.h>
+#include <unistd.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <stdexcept>
 
 #include "output/Text.hpp"
@@ -52,6 +56,27 @@ void TimeSeries::append(std::span<double const> values)
     for (double const value : values)
         add_cell(line, to_text(value));
     write_line(line);
+}
+
+// A row at the very time is written again; its time may differ in the last bits.
+std::int64_t TimeSeries::keep_before(double time, int column)
+{
+    auto const time_of = [=](std::string const& row)
+    {
+        std::size_t at = 0;
+        for (int k = 0; k < column; ++k)
+            at = row.find(',', at) + 1;
+        return std::strtod(row.c_str() + at, nullptr);
+    };
+    std::ifstream in(file_);
+    std::string line;
+    std::getline(in, line);
+    std::size_t bytes = line.size() + 1;
+    std::int64_t rows = 0;
+    for (; std::getline(in, line) && time_of(line) < time - 1e-9 * std::abs(time); ++rows)
+        bytes += line.size() + 1;
+    if (::ftruncate(descriptor_.get(), static_cast<::off_t>(bytes)) != 0) fail_with_errno("write", file_);
+    return rows;
 }
 
 void TimeSeries::write_line(std::string const& line)

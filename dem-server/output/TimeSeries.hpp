@@ -2,6 +2,7 @@
 /// Numbers over time as CSV.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -31,6 +32,9 @@ public:
     /// Write one row, values in the order of the columns.
     /// @pre values.size() is the number of columns (else std::invalid_argument).
     void append(std::span<double const> values);
+
+    /// Drops the rows from `time` [s] on, which this column has. Returns how many are left.
+    std::int64_t keep_before(double time, int column = 0);
 
     std::filesystem::path const& file() const { return file_; }
 

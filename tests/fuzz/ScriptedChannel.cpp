@@ -124,12 +124,12 @@ namespace gimdem::coupling::transport
 Socket::Socket(Role role, Address const& address) : role_(role), endpoint_(address.text), context_(1) {}
 Socket::~Socket() = default;
 
-Socket Socket::connect(std::string const& endpoint)
+Socket Socket::connect(std::string const& endpoint, std::optional<ClientKeys> const&)
 {
     return Socket(Role::client, {endpoint, "", false});
 }
 
-Socket Socket::bind(std::string const& endpoint)
+Socket Socket::bind(std::string const& endpoint, std::optional<ServerKeys> const&)
 {
     return Socket(Role::server, {endpoint, "", false});
 }

@@ -117,6 +117,23 @@ inline RawMessage raw_heartbeat()
     return message;
 }
 
+inline RawMessage raw_checkpoint()
+{
+    RawMessage message;
+    message.envelope.mutable_checkpoint()->set_time(1e-3);
+    return message;
+}
+
+inline RawMessage raw_checkpoint_saved()
+{
+    RawMessage message;
+    v1::CheckpointSaved& saved = *message.envelope.mutable_checkpoint_saved();
+    saved.set_step(1);
+    saved.set_time(1e-3);
+    saved.set_name("step_000000001_at_0.001.h5");
+    return message;
+}
+
 inline RawMessage raw_goodbye()
 {
     RawMessage message;

@@ -10,6 +10,7 @@
 
 #include "couplingClient.H"
 #include "polyMeshArrays.H"
+#include "fluidCheckpoint.H"
 #include "fvc.H"
 #include "StringStream.H"
 #include "Pstream.H"
@@ -70,7 +71,8 @@ static Rank thisRank()
 ClientOptions Foam::couplingClient::options
 (
     const Time& runTime,
-    const argList& args
+    const argList& args,
+    const std::optional<ResumePoint>& resumed
 )
 {
     const IOdictionary dict
@@ -90,6 +92,7 @@ ClientOptions Foam::couplingClient::options
 
     ClientOptions o;
     o.name = "gimdemFoam";
+    o.resume = resumed;
     o.endpoint =
         args.found("endpoint")
       ? args.opt<string>("endpoint")
@@ -166,10 +169,16 @@ void Foam::couplingClient::addOptions()
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::couplingClient::couplingClient(const Time& runTime, const argList& args)
+Foam::couplingClient::couplingClient
+(
+    const Time& runTime,
+    const argList& args,
+    const std::optional<ResumePoint>& resumed
+)
 :
-    options_(options(runTime, args)),
-    client_(options_)
+    options_(options(runTime, args, resumed)),
+    client_(options_),
+    completeStep_(resumed ? resumed->step : 0)
 {}
 
 
@@ -228,7 +237,20 @@ void Foam::couplingClient::connect
             << " leave out fluid_steps, or choose another schedule"
             << exit(FatalError);
     }
-    fixedPoint_.reset(new FluidFixedPoint(welcome.iteration));
+    fixedPoint_.reset
+    (
+        new FluidFixedPoint
+        (
+            welcome.iteration,
+            [](Span<double> numbers)
+            {
+                for (double& number : numbers)
+                {
+                    reduce(number, sumOp<scalar>());
+                }
+            }
+        )
+    );
 }
 
 
@@ -415,6 +437,21 @@ bool Foam::couplingClient::iterate()
     Info<< "Note: " << what.str().c_str() << endl;
 
     return false;
+}
+
+
+void Foam::couplingClient::saveCheckpoint(resumableTime& runTime)
+{
+    if (client_.welcome().saves_checkpoints)
+    {
+        const SavedCheckpoint saved
+        (
+            client_.save_checkpoint(runTime.value(), completeStep_)
+        );
+        fluidCheckpoint::complete(runTime, saved);
+        completeStep_ = saved.step;
+    }
+    runTime.purge();
 }
 
 

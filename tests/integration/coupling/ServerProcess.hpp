@@ -32,8 +32,9 @@ struct SmallCase
     double timeout = patient;       ///< of the server [s]
     double connect_time = patient;  ///< of the server [s]
     std::string schedule = "serial";
-    std::string more;      ///< of the case file
-    std::string coupling;  ///< more of its [coupling]
+    std::string more;                    ///< of the case file
+    std::string coupling;                ///< more of its [coupling]
+    std::vector<std::string> arguments;  ///< of the server, beside the usual ones
 
     static constexpr int particle_count = 300;
     static constexpr double diameter = 2e-3;          ///< [m]
@@ -110,7 +111,10 @@ private:
                                             SmallCase const& settings)
     {
         std::ofstream(folder / "case.toml") << settings.text();
-        return {GIMDEM_SERVER, "--case", folder / "case.toml", "--run", folder / "run", "--endpoint", endpoint};
+        std::vector<std::string> all{GIMDEM_SERVER, "--case", folder / "case.toml", "--run", folder / "run",
+                                     "--endpoint",  endpoint};
+        all.insert(all.end(), settings.arguments.begin(), settings.arguments.end());
+        return all;
     }
 
     /// The rest of the line after that text, and whether the line is complete.

@@ -27,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include "gimdem/coupling/Checkpoint.hpp"
 #include "gimdem/coupling/Error.hpp"
 #include "gimdem/coupling/Types.hpp"
 
@@ -43,6 +44,7 @@ struct ClientOptions
     std::optional<Schedule> schedule;  ///< ask for one; left empty, the server's case file decides
     std::vector<std::string> wants;  ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
     bool shared_memory = true;       ///< over ipc, let large fields travel through shared memory if the server can
+    std::optional<ResumePoint> resume;  ///< where to go on; left empty: a run begins
     bool iterates = false;           ///< the program calls iterate_step() if the schedule is iterated
     Rank rank;                       ///< of a fluid that several processes solve together
     std::string keys;                ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
@@ -56,6 +58,7 @@ struct Welcome
     Schedule schedule = Schedule::serial;
     double end_time = 0;                      ///< the run ends here [s]
     std::vector<std::string> needs;           ///< fluid fields that this scene needs, names of namespace field
+    bool saves_checkpoints = false;           ///< save_checkpoint() is possible
     int fluid_steps = 1;                      ///< equal fluid steps that a coupling step should have
     Iteration iteration;                      ///< of schedule iterated
     std::vector<std::string> rank_endpoints;  ///< to rank 0 of several: where ranks 1, 2, ... connect
@@ -97,6 +100,12 @@ public:
     /// @pre begin_step() has been called. timings tells where this fluid step spent its time, residual how well an
     /// iterated one converged.
     void end_step(Timings const& timings = {}, double residual = 0);
+
+    /// @pre send_mesh() or end_step() was the last call, and the server saves checkpoints. Has the server save its
+    /// state of now; returns when that is safe on disk. The fluid's state of now belongs to it: write it, then remember
+    /// what is returned, for ClientOptions.resume. complete_step: step of the newest checkpoint to which a fluid is
+    /// whole, 0: none; the server keeps it until a newer one is complete.
+    SavedCheckpoint save_checkpoint(double time, std::int64_t complete_step);
 
     /// Why the server asks for an orderly end (Ctrl-C there), if it does: write your fields and call finish().
     std::optional<std::string> const& stop_request() const;

@@ -16,7 +16,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <initializer_list>
+#include <utility>
 #include <vector>
 
 #include "gimdem/coupling/Types.hpp"
@@ -30,9 +32,12 @@ class AitkenRelaxation
 {
 public:
     using Blocks = std::vector<Span<double const>>;
+    /// Adds each of some numbers up over the ranks that have a part of the blocks each, on all of them.
+    using Sum = std::function<void(Span<double>)>;
 
-    /// `first`: factor of the first pass of each problem, so that no problem depends on those before it.
-    explicit AitkenRelaxation(double first) : first_(first) {}
+    /// `first`: factor of the first pass of each problem, so that no problem depends on those before it. `sum`: empty
+    /// for one process.
+    explicit AitkenRelaxation(double first, Sum sum = {}) : first_(first), sum_(std::move(sum)) {}
 
     /// A new problem with its first guess. Only the first `judged` blocks decide about factor and residual.
     void start(Blocks const& guess, std::size_t judged)
@@ -54,16 +59,21 @@ public:
         before_.swap(residual_);
         residual_.resize(image.size());
         ++passes_;
-        double worst = 0;
+        std::vector<double> squares;  // of residual, image and guess of each judged block
         for (std::size_t b = 0; b < image.size(); ++b)
         {
             residual_[b].resize(image[b].size());
             for (std::size_t i = 0; i < image[b].size(); ++i)
                 residual_[b][i] = image[b][i] - guess_[b][i];
-            if (b >= judged_) continue;
-            double const scale = std::max(square(image[b]), square(guess_[b]));
+            if (b < judged_) squares.insert(squares.end(), {square(residual_[b]), square(image[b]), square(guess_[b])});
+        }
+        if (sum_) sum_(squares);
+        double worst = 0;
+        for (std::size_t b = 0; b < judged_; ++b)
+        {
+            double const scale = std::max(squares[3 * b + 1], squares[3 * b + 2]);
             if (passes_ == 1 && scale > 0) weight_[b] = 1 / scale;
-            if (scale > 0) worst = std::max(worst, std::sqrt(square(residual_[b]) / scale));
+            if (scale > 0) worst = std::max(worst, std::sqrt(squares[3 * b] / scale));
         }
         return worst;
     }
@@ -93,18 +103,21 @@ private:
 
     void renew_factor()
     {
-        double along = 0, change = 0;
+        std::vector<double> products(2);  // of the change of the residual with the one before, and with itself
         for (std::size_t b = 0; b < judged_; ++b)
             for (std::size_t i = 0; i < residual_[b].size(); ++i)
             {
                 double const difference = residual_[b][i] - before_[b][i];
-                along += weight_[b] * before_[b][i] * difference;
-                change += weight_[b] * difference * difference;
+                products[0] += weight_[b] * before_[b][i] * difference;
+                products[1] += weight_[b] * difference * difference;
             }
-        if (change > 0 && std::isfinite(along / change)) factor_ *= -along / change;
+        if (sum_) sum_(products);
+        double const ratio = products[1] > 0 ? -products[0] / products[1] : 1;
+        if (std::isfinite(ratio)) factor_ *= ratio;
     }
 
     double first_, factor_ = 0;
+    Sum sum_;
     int passes_ = 0;
     std::size_t judged_ = 0;
     std::vector<std::vector<double>> guess_, residual_, before_;
@@ -116,7 +129,11 @@ private:
 class FluidFixedPoint
 {
 public:
-    explicit FluidFixedPoint(Iteration const& settings) : settings_(settings), relaxation_(settings.relaxation) {}
+    /// `sum`: for clients of several ranks, each with a part of the fields.
+    explicit FluidFixedPoint(Iteration const& settings, AitkenRelaxation::Sum sum = {})
+        : settings_(settings), relaxation_(settings.relaxation, std::move(sum))
+    {
+    }
 
     /// The fluid that begin_step() was given.
     void start(FluidFields const& sent) { relaxation_.start(blocks_of(sent), 2); }

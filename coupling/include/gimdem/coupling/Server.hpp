@@ -25,6 +25,7 @@
 #include <string>
 #include <vector>
 
+#include "gimdem/coupling/Checkpoint.hpp"
 #include "gimdem/coupling/Error.hpp"
 #include "gimdem/coupling/Status.hpp"
 #include "gimdem/coupling/StepTimes.hpp"
@@ -63,10 +64,11 @@ struct ClientInfo
 {
     std::string name;
     FluidProperties fluid;
-    std::vector<std::string> wants;    ///< solid fields the client asks for
-    std::optional<Schedule> schedule;  ///< the client's wish, which is then in force; empty: the server's terms are
-    bool iterates = false;             ///< it can repeat steps; where that is also in force, it will
-    std::int32_t ranks = 1;            ///< processes that the client consists of
+    std::vector<std::string> wants;     ///< solid fields the client asks for
+    std::optional<Schedule> schedule;   ///< the client's wish, which is then in force; empty: the server's terms are
+    std::optional<ResumePoint> resume;  ///< where the client goes on; empty: it begins a run
+    bool iterates = false;              ///< it can repeat steps; where that is also in force, it will
+    std::int32_t ranks = 1;             ///< processes that the client consists of
     bool wants_field(std::string const& field_name) const;
 };
 
@@ -98,6 +100,11 @@ public:
     /// The bound address, with the port chosen for "*".
     std::string const& endpoint() const;
 
+    /// Saves what the program has so far, when the client asks for it; receive_fluid() calls it. What it throws ends
+    /// receive_fluid(). Without it, to be set before wait_for_client(), the client cannot ask.
+    using CheckpointSaver = std::function<SavedCheckpoint(CheckpointRequest const&)>;
+    void save_checkpoints_by(CheckpointSaver saver);
+
     /// @post Welcome sent; a client of another protocol version is told so and Fault::version is thrown.
     ClientInfo wait_for_client(ServerTerms const& terms);
 
@@ -117,6 +124,11 @@ public:
 
     /// @pre receive_fluid. Answers it.
     void send_solid(SolidFields const& fields, Timings const& timings);
+
+    /// The session is over because the client is gone, silent or slow, not because it said why.
+    bool has_lost_client() const;
+    /// The session's number, by which a client that goes on names it.
+    std::uint64_t session_number() const;
 
     /// Tell the client why we stop; never throws. The destructor of an unfinished session does it too.
     void abort(std::string const& reason) noexcept;

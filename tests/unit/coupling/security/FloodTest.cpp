@@ -2,6 +2,7 @@
 /// Peers and strangers that send as much as they can: memory stays flat, and the session tells what it thinks of it.
 #include <gtest/gtest.h>
 
+#include <malloc.h>
 #include <future>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "Faults.hpp"
 #include "Figure.hpp"
 #include "Pair.hpp"
+#include "Process.hpp"
 #include "ProcessMeters.hpp"
 #include "RawMessages.hpp"
 #include "session/Inbox.hpp"
@@ -20,14 +22,16 @@ namespace
 
 using namespace coupling;
 
-/// The buffers of the system (4 MiB each way) and of ZeroMQ, of both ends, which are in this process [byte].
-double constexpr flat = 32 << 20;
+/// ZeroMQ's batches and the threads' arenas, of both ends, which are in this process; measured: 1 MB [byte].
+double constexpr flat = 16 << 20;
+/// Raw peers have no heartbeat, and a busy machine is slow [s].
+double constexpr forgiving = 600;
 
 /// A server in the middle of a run, whose program is at work.
 struct BusyServer
 {
     explicit BusyServer(std::string const& endpoint)
-        : server(server_options(endpoint)), peer(RawPeer::client(server.endpoint()))
+        : server(server_options(endpoint, forgiving)), peer(RawPeer::client(server.endpoint()))
     {
         auto client_side = in_background(
             [&]
@@ -70,8 +74,8 @@ TEST_P(Flood, OfAStrangerWhoReadsNoAnswerLeavesMemoryFlat)
     EXPECT_THAT(second.receive_error(), testing::HasSubstr("busy"));
     double const before = own_memory();
 
-    // Each is answered by 200 bytes, 60 MB in all.
-    for (int n = 0; n < 300'000; ++n)
+    // Each is answered by some 200 bytes, and as much again to keep them: 40 MB in all.
+    for (int n = 0; n < 100'000; ++n)
         stranger.send_frames({"x"});
     second.send(raw_hello());
     EXPECT_THAT(second.receive_error(), testing::HasSubstr("busy"));  // the server has come so far
@@ -88,18 +92,21 @@ TEST_P(Flood, OfThePeerLeavesMemoryFlatAndEndsTheSession)
     BusyServer busy(endpoint());
     double const before = own_memory();
 
-    // 2 GB in all: what a mesh of a million cells would send, to a session of 24.
+    // 340 MB in all: the fields of a mesh of 350,000 cells, to a session of 24.
     RawMessage const fluid = raw_fluid(2, 1e-3, 1e-3, 350'000, {{"velocity", 3}});
-    for (int n = 0; n < 250; ++n)
+    for (int n = 0; n < 40; ++n)
         busy.peer.send(fluid);
     busy.peer.send(raw_goodbye());
+    auto const growth = [&]
+    {
+        ::malloc_trim(0);
+        return own_memory() - before - static_cast<double>(fluid.arrays.front().size());
+    };
+    EXPECT_TRUE(wait_until([&] { return growth() < flat; }, forgiving / 10)) << "kept unread: " << growth();
+    figure("memory_growth_by_flood_of_peer", growth(), "byte");
 
     EXPECT_FAULT(busy.server.send_solid(SolidArrays(24, 5).view(), {}), Fault::protocol,
                  "no message of this session has more than");
-    double const growth = own_memory() - before;
-    figure("memory_growth_by_flood_of_peer", growth, "byte");
-    // What ZeroMQ holds of one peer, both ends: 2 x 16 messages of 8.4 MB, were they not taken at once.
-    EXPECT_LT(growth, 1 << 30);
 }
 
 TEST(FloodOfLetters, WithArraysIsCut)

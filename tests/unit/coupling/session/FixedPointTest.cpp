@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -33,8 +34,10 @@ TEST(AitkenRelaxation, SolvesALinearProblemOfOneNumberInTwoPasses)
                 relaxation.relax();
                 largest = std::max(largest, std::abs(image[0]));
             }
-            // Rounding of the largest number on the way, and of the factor, which comes of differences.
-            EXPECT_NEAR(relaxation.guess(0)[0], solution, 1e2 * epsilon * largest) << "a = " << a;
+            // Rounding of the largest number on the way, which the inverse of 1 - a makes larger; and of the factor,
+            // which comes of differences.
+            double const amplified = largest * std::max(1.0, 1 / std::abs(1 - a));
+            EXPECT_NEAR(relaxation.guess(0)[0], solution, 1e2 * epsilon * amplified) << "a = " << a;
             EXPECT_NEAR(relaxation.factor(), 1 / (1 - a), 1e3 * epsilon * (1 + 1 / std::abs(1 - a))) << "a = " << a;
         }
 }
@@ -57,6 +60,32 @@ TEST(AitkenRelaxation, DoesNotCareAboutUnits)
     }
     EXPECT_NEAR(two.guess(0)[0], 4 / (1 - a), 1e4 * epsilon);
     EXPECT_NEAR(two.guess(1)[0], 4 / (1 - a) * unit, 1e4 * epsilon * unit);
+}
+
+TEST(AitkenRelaxation, OfSeveralRanksIsThatOfTheWhole)
+{
+    // Two ranks in lockstep: what one adds up, the other does at the same place. Here the other's part is known, as it
+    // is the same as this one's.
+    auto const twice = [](Span<double> numbers)
+    {
+        for (double& number : numbers)
+            number *= 2;
+    };
+    AitkenRelaxation whole(0.5), part(0.5, twice);
+    std::vector<double> const start{1, 2, 1, 2}, half{1, 2};
+    whole.start({start}, 1);
+    part.start({half}, 1);
+    for (int pass = 0; pass < 4; ++pass)
+    {
+        std::vector<double> images, image;
+        for (std::size_t i = 0; i < 4; ++i)
+            images.push_back(std::cos(static_cast<double>(3 + i % 2) * whole.guess(0)[i]));
+        image.assign(images.begin(), images.begin() + 2);
+        EXPECT_NEAR(whole.take({images}), part.take({image}), 1e-12);
+        whole.relax();
+        part.relax();
+        EXPECT_NEAR(whole.guess(0)[1], part.guess(0)[1], 1e-12);
+    }
 }
 
 TEST(AitkenRelaxation, TakesBlocksAlongThatItDoesNotJudge)

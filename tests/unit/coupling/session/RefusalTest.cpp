@@ -176,7 +176,7 @@ TEST(ServerRefuses, AMeshInsteadOfAFluid)
     client.be_ready();
     client.peer.send(raw_mesh(small_mesh()));
     client.expect_refusal("protocol", {"Mesh from client \"raw client\" is out of order in state ready, step 0",
-                                       "allowed here: FluidState or Goodbye"});
+                                       "allowed here: FluidState or Checkpoint or Goodbye"});
 }
 
 /// A raw server that answers the Hello of a real client, its Mesh, and its first FluidState.

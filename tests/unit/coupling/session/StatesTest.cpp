@@ -51,14 +51,18 @@ std::vector<Path> const client_paths{
       Event::begin_iterated_step}},
     {State::iterating,
      {Event::connect, Event::welcome, Event::send_mesh, Event::mesh_accepted, Event::solid_state,
-      Event::begin_iterated_step, Event::solid_state, Event::iterate_step, Event::solid_state}}};
+      Event::begin_iterated_step, Event::solid_state, Event::iterate_step, Event::solid_state}},
+    {State::saving,
+     {Event::connect, Event::welcome, Event::send_mesh, Event::mesh_accepted, Event::solid_state,
+      Event::save_checkpoint}}};
 
 std::vector<Path> const server_paths{
     {State::listening, {}},
     {State::welcomed, {Event::hello}},
     {State::meshing, {Event::hello, Event::mesh}},
     {State::ready, {Event::hello, Event::mesh, Event::accept_mesh}},
-    {State::computing, {Event::hello, Event::mesh, Event::accept_mesh, Event::fluid_state}}};
+    {State::computing, {Event::hello, Event::mesh, Event::accept_mesh, Event::fluid_state}},
+    {State::saving, {Event::hello, Event::mesh, Event::accept_mesh, Event::checkpoint}}};
 
 /// The rules once more, from docs/protocol.md: the only messages that a state takes, and where they lead.
 using Allowed = std::map<std::pair<State, std::string>, State>;
@@ -66,13 +70,15 @@ using Allowed = std::map<std::pair<State, std::string>, State>;
 Allowed const client_allows{
     {{State::greeting, "Welcome"}, State::welcomed},    {{State::meshing, "MeshAccepted"}, State::accepted},
     {{State::accepted, "SolidState"}, State::ready},    {{State::waiting, "SolidState"}, State::solving},
-    {{State::overlapping, "SolidState"}, State::ready}, {{State::awaiting, "SolidState"}, State::iterating}};
+    {{State::overlapping, "SolidState"}, State::ready},
+    {{State::awaiting, "SolidState"}, State::iterating},
+    {{State::saving, "CheckpointSaved"}, State::ready}};
 
 Allowed const server_allows{
     {{State::listening, "Hello"}, State::welcomed},   {{State::welcomed, "Mesh"}, State::meshing},
     {{State::ready, "FluidState"}, State::computing}, {{State::welcomed, "Goodbye"}, State::finished},
     {{State::meshing, "Goodbye"}, State::finished},   {{State::ready, "Goodbye"}, State::finished},
-    {{State::computing, "Goodbye"}, State::finished}};
+    {{State::computing, "Goodbye"}, State::finished}, {{State::ready, "Checkpoint"}, State::saving}};
 
 std::map<std::string, RawMessage> every_message()
 {
@@ -83,6 +89,8 @@ std::map<std::string, RawMessage> every_message()
             {"MeshAccepted", test::raw_mesh_accepted(mesh.cell_count)},
             {"FluidState", test::raw_fluid(1, 0, 1e-3, mesh.cell_count)},
             {"SolidState", test::raw_solid(1, mesh.cell_count)},
+            {"Checkpoint", test::raw_checkpoint()},
+            {"CheckpointSaved", test::raw_checkpoint_saved()},
             {"Goodbye", test::raw_goodbye()},
             {"Error", test::raw_error("raw trouble")}};
 }
@@ -253,10 +261,13 @@ std::map<State, std::vector<Event>> const client_calls{
     {State::welcomed, {Event::send_mesh, Event::finish}},
     {State::meshing, {}},
     {State::accepted, {}},
-    {State::ready, {Event::begin_serial_step, Event::begin_overlapped_step, Event::begin_iterated_step, Event::finish}},
+    {State::ready,
+     {Event::begin_serial_step, Event::begin_overlapped_step, Event::begin_iterated_step, Event::save_checkpoint,
+      Event::finish}},
     {State::waiting, {}},
     {State::solving, {Event::end_step, Event::finish}},
     {State::overlapping, {Event::end_step, Event::finish}},
+    {State::saving, {}},
     {State::awaiting, {}},
     {State::iterating, {Event::iterate_step, Event::end_step, Event::finish}},
     {State::finished, {Event::finish}},
@@ -267,6 +278,7 @@ std::map<State, std::vector<Event>> const server_calls{{State::listening, {Event
                                                        {State::meshing, {Event::accept_mesh, Event::reject_mesh}},
                                                        {State::ready, {Event::receive_fluid}},
                                                        {State::computing, {Event::send_solid}},
+                                                       {State::saving, {Event::checkpoint_is_saved}},
                                                        {State::finished, {Event::receive_fluid}},
                                                        {State::failed, {}}};
 
