@@ -225,7 +225,7 @@ static gimdem_status session(gimdem_client* client)
 {
     const gimdem_fluid_properties properties = {sizeof properties, 1.2, 1.8e-5};
     const gimdem_monitor monitor = {"steps", "1", 1};
-    const gimdem_timings timings = {sizeof timings, 0.1, 0};
+    const gimdem_timings timings = {sizeof timings, 0.1, 0, 0};
     const gimdem_fluid_fields fluid = rest();
     const gimdem_mesh mesh = cube();
     gimdem_welcome welcome = {0};
