@@ -89,7 +89,7 @@ def refuse_what_is_to_come(client: str | None, device: str) -> None:
     """Options whose meaning is settled but that nothing implements here."""
     if client == "reference":
         raise UserError("the reference client is not part of this version; use --client openfoam", 2)
-    if client:
+    if client not in (None, "none"):
         find_client(client)
     if device == "cuda" and not is_built_with_cuda():
         raise UserError("this build computes particles on the CPU only; use --device cpu, or leave it out, or build "
@@ -202,7 +202,7 @@ def run_in_folder(case: CaseDescription, client: Program | None, options: argpar
     if client:
         say("mesh", client.make_mesh(case, run.folder))
     if run.ranks > 1:
-        say("ranks", parallel.decompose(run.folder, run.ranks))
+        say("ranks", parallel.decompose(run.folder, run.ranks, restart))
     record = RunRecord(run.folder, run.settings())
     start = time.monotonic()
     outcome = run.carry_out()

@@ -13,7 +13,7 @@ from pathlib import Path
 from real_case import RealCaseTest
 
 # The pressure is solved to 1e-9 of its first residual, 1e4 of which the matrix may make an error of the solution; forces
-# on particles and their 20 steps hand it on.
+# on particles and their 4 steps hand it on.
 TOLERANCE = 1e-5
 # Of the wall clock, of what travels, or of rounding.
 NOT_COMPARED = ("wall", "share_", "bytes", "imbalance", "lag", "exchange", "waiting")
@@ -23,10 +23,12 @@ FIELD = re.compile(r"internalField\s+nonuniform List<(?:scalar|vector)>\s*\d+\s*
 class Ranks(RealCaseTest):
     def setUp(self) -> None:
         super().setUp()
-        self.edit(r"^sample_interval = .*$", "sample_interval = 1e-4\ncheckpoint_interval = 1e-3")
-        self.change("controlDict", r"(?m)^writeInterval .*;", "writeInterval 1e-3;")
+        self.edit(r"^sample_interval = .*$", "sample_interval = 1e-4\ncheckpoint_interval = 2e-4")
+        self.change("controlDict", r"(?m)^writeInterval .*;", "writeInterval 2e-4;")
         self.change("controlDict", r"(?m)^writeFormat .*;", "writeFormat ascii;")
         self.change("controlDict", r"(?m)^writePrecision .*;", "writePrecision 12;")
+        # Of the solvers the one with the fewest messages: on a busy machine each may wait for its turn.
+        self.change("fvSolution", r"solver +GAMG;", "solver PCG; preconditioner DIC;")
         self.change("fvSolution", r"relTol +0.05;", "relTol 1e-9;")
         self.change("fvSolution", r"tolerance +1e-6;", "tolerance 0;")
         self.change("fvSolution", r"relTol +0.003;", "relTol 1e-9;")
@@ -50,8 +52,9 @@ class Ranks(RealCaseTest):
 
     def assert_close(self, ones: list[float], others: list[float], what: str) -> None:
         self.assertEqual(len(ones), len(others), what)
-        most = max(map(abs, ones))
-        self.assertLess(max(abs(one - other) for one, other in zip(ones, others)), TOLERANCE * most, what)
+        difference = max(abs(one - other) for one, other in zip(ones, others)) / max(map(abs, ones))
+        print(f"figure: ranks_difference_of_{what} = {difference:.3g} [1]")
+        self.assertLess(difference, TOLERANCE, what)
 
     def assert_in_order(self, run: Path) -> None:
         """As one process leaves it."""
@@ -59,12 +62,12 @@ class Ranks(RealCaseTest):
         self.assertEqual(list((self.folder / "tmp").iterdir()), [])
 
     def test_two_agree_with_one_and_restart(self) -> None:
-        one = self.run_case(1, "0.002")
-        two = self.run_case(2, "0.002")
+        one = self.run_case(1, "0.0004")
+        two = self.run_case(2, "0.0004")
         self.assert_in_order(two)
         self.assertEqual(json.loads((two / "run.json").read_text())["settings"]["ranks"], 2)
         for name in ("U", "p", "alpha", "dragMomentum"):
-            self.assert_close(self.numbers(one / "0.002" / name), self.numbers(two / "0.002" / name), name)
+            self.assert_close(self.numbers(one / "0.0004" / name), self.numbers(two / "0.0004" / name), name)
         others = self.figures(two)
         for name, value in self.figures(one).items():
             if not any(word in name for word in NOT_COMPARED):
@@ -72,14 +75,16 @@ class Ranks(RealCaseTest):
         self.assertLess(others["momentum_imbalance"], 1e-12)
         self.assertLess(others["volume_imbalance"], 1e-12)
 
-        middle = two / "checkpoints" / "step_000000010_at_0.001.h5"
-        restarted = self.run_case(2, "0.002", "--restart", middle)
-        self.assertEqual(self.figures(restarted)["coupling_steps"], 10)
-        self.assert_close(self.numbers(two / "0.002" / "U"), self.numbers(restarted / "0.002" / "U"), "U")
+        middle = two / "checkpoints" / "step_000000002_at_0.0002.h5"
+        restarted = self.run_case(2, "0.0004", "--restart", middle)
+        self.assertEqual(self.figures(restarted)["coupling_steps"], 2)
+        # Same cut, same numbers but for rounding in files, and the same solvers to their tolerance.
+        for name in ("U", "p", "alpha"):
+            self.assert_close(self.numbers(two / "0.0004" / name), self.numbers(restarted / "0.0004" / name), name)
 
     def start_running(self):
         process = self.start("run", self.case, "--ranks", 2, "--until", "50")
-        self.wait_until(lambda: self.rows(self.run_folder) > 12 or process.poll() is not None, "samples", 90)
+        self.wait_until(lambda: self.rows(self.run_folder) > 3 or process.poll() is not None, "samples", 90)
         self.assertIsNone(process.poll(), process.stderr.read() if process.poll() is not None else "")
         return process
 
@@ -103,7 +108,7 @@ class Ranks(RealCaseTest):
         code, _, err = self.finish(process)
         self.assertEqual(code, 1, err)
         self.assert_one_error(err, "gimdem-server: ", "of 2\"")
-        self.assertTrue((self.run_folder / "0.001" / "U").exists(), "what was written is put together")
+        self.assertTrue((self.run_folder / "0.0002" / "U").exists(), "what was written is put together")
         self.assert_in_order(self.run_folder)
 
     def test_interrupt_ends_all_in_order(self) -> None:
@@ -123,10 +128,10 @@ class Ranks(RealCaseTest):
         for left in (self.folder / "tmp").iterdir():  # what a killed launcher cannot remove: sockets
             self.assertTrue(left.name.startswith("gimdem-"), left)
             shutil.rmtree(left)
-        self.assertFalse((self.run_folder / "0.001").exists())
-        checkpoint = self.run_folder / "checkpoints" / "step_000000010_at_0.001.h5"
-        restarted = self.run_case(1, "0.0015", "--restart", checkpoint)
-        self.assertEqual(self.figures(restarted)["coupling_steps"], 5)
+        self.assertFalse((self.run_folder / "0.0002").exists())
+        checkpoint = self.run_folder / "checkpoints" / "step_000000002_at_0.0002.h5"
+        restarted = self.run_case(1, "0.0005", "--restart", checkpoint)
+        self.assertEqual(self.figures(restarted)["coupling_steps"], 3)
 
 
 if __name__ == "__main__":

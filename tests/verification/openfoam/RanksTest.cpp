@@ -25,7 +25,7 @@ FluidCase box(Vector cuts, bool predictor)
     FluidCase fluid;
     fluid.lengths = {0.04, 0.03, 0.08};
     fluid.cells = {4, 3, 8};
-    fluid.end_time = 0.004;
+    fluid.end_time = 0.0016;
     fluid.time_step = 2e-4;
     fluid.cuts = cuts;
     fluid.momentum_predictor = predictor;
@@ -34,10 +34,11 @@ FluidCase box(Vector cuts, bool predictor)
     return fluid;
 }
 
-/// Denser on the left, so that the gas flows sideways too; particles that move.
+/// Denser on the left, so that the gas flows sideways too; particles that move. The surface passes the centre of a cell
+/// in the sixth step, and is never so near one that rounding decides.
 Solid bed(Vector x, double t)
 {
-    if (x[2] > 0.03 + 5 * t) return {};
+    if (x[2] > 0.03 + 4.7 * t) return {};
     double const left = 1 - x[0] / 0.04;
     double const void_fraction = 0.5 + 0.1 * x[1] / 0.03 - 0.1 * left;
     double const drag = 2000 * (1 + left);
@@ -77,8 +78,8 @@ double difference(std::vector<std::array<double, N>> const& a, std::size_t i,
 }
 
 /// The pressure is solved to 1e-12 of its first residual. An error grows by the condition of the matrix, 1e2 for 8
-/// cells in a row, in each of 20 steps: 2e-9 of the largest value.
-double constexpr tolerance = 2e-9;
+/// cells in a row, in each of 8 steps: 1e-9 of the largest value.
+double constexpr tolerance = 1e-9;
 
 void expect_same(Fluid const& one, Fluid const& many)
 {
@@ -134,7 +135,7 @@ TEST(Ranks, TheDeathOfOneEndsAll)
         run_with(process, 10, bed,
                  [&](Fluid const& now)
                  {
-                     if (now.time < 5.5 * fluid.time_step) return;
+                     if (now.time < 2.5 * fluid.time_step) return;
                      std::string const all = process.log();
                      auto const at = all.rfind("PID    : ");
                      ASSERT_NE(at, std::string::npos);
