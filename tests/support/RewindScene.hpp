@@ -49,8 +49,8 @@ struct RewindScene
 {
     static constexpr int along = 4;
     static constexpr std::size_t cells = along * along * along;
-    static constexpr double height = 0.01;    ///< [m]
-    static constexpr double dt = 2e-4;        ///< [s]
+    static constexpr double height = 0.01;  ///< [m]
+    static constexpr double dt = 2e-4;      ///< [s]
 
     /// 216 spheres that fly up through the open top, rain from above, and a floor that shakes.
     static Case made()
