@@ -18,8 +18,9 @@ namespace
 
 using namespace coupling;
 
-double constexpr dt = 2e-3;  ///< [s]
-int constexpr steps = 25;
+double constexpr dt = 5e-3;  ///< [s]
+int constexpr steps = 10;
+FluidProperties constexpr water{1000, 1e-3};
 BoxMesh::Size constexpr size{6, 6, 40};
 std::size_t constexpr cells = 6 * 6 * 40;
 
