@@ -64,8 +64,8 @@ int main(int argc, char** argv)
     {
         if (options->status)
         {
-            gimdem::app::print_status(*options->status, options->patience,
-                                      options->keys.value_or("").string(), options->json);
+            gimdem::app::print_status(*options->status, options->patience, options->keys.value_or("").string(),
+                                      options->json);
             return 0;
         }
         gimdem::Case const settings = gimdem::app::read_case_with(*options);
