@@ -18,8 +18,22 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using test::RawMessage;
 
-unsigned constexpr first_kind = 10;
-unsigned constexpr kind_count = 9;
+/// Field numbers of the messages that an envelope can hold, in a row; and 0: none.
+unsigned any_kind(Bytes& input)
+{
+    auto const& kinds = *v1::Envelope::descriptor()->FindOneofByName("kind");
+    unsigned const k = input.choose(static_cast<unsigned>(kinds.field_count()) + 1);
+    return k == 0 ? 0u : static_cast<unsigned>(kinds.field(static_cast<int>(k) - 1)->number());
+}
+
+/// With every field as protobuf has it by default.
+RawMessage empty_message(unsigned kind)
+{
+    RawMessage message;
+    auto const* const field = v1::Envelope::descriptor()->FindFieldByNumber(static_cast<int>(kind));
+    if (field) v1::Envelope::GetReflection()->MutableMessage(&message.envelope, field);
+    return message;
+}
 
 double odd_number(Bytes& input)
 {
@@ -136,7 +150,7 @@ RawMessage right_message(unsigned kind, Truth const& truth)
         case 18:
             return test::raw_goodbye();
         default:
-            return {};
+            return empty_message(kind);
     }
 }
 
@@ -154,7 +168,7 @@ RawMessage make_message(unsigned kind, Truth const& truth, Bytes& input)
 
 RawMessage make_message(Truth const& truth, Bytes& input)
 {
-    return make_message(first_kind + input.choose(kind_count + 1), truth, input);
+    return make_message(any_kind(input), truth, input);
 }
 
 coupling::transport::Frames frames_of(RawMessage const& message, Bytes& input)

@@ -22,7 +22,7 @@ struct Truth
     std::int32_t cells = 2;  ///< of the mesh
 };
 
-/// A message of that kind (`Envelope`'s field number of it, 10 to 18), with the mistakes that the input asks for.
+/// A message of that kind (`Envelope`'s field number of it, 0: none), with the mistakes that the input asks for.
 test::RawMessage make_message(unsigned kind, Truth const& truth, Bytes& input);
 
 /// Any kind, any mistake.

@@ -42,11 +42,13 @@ Wire& Wire::of_session()
     return wire;
 }
 
-void Wire::open(Role role, coupling::transport::ChannelHooks hooks)
+void Wire::open(void const* channel, Role role, coupling::transport::ChannelHooks hooks)
 {
+    if (open_) return;
     auto coming = std::move(coming_);
     auto ending = std::move(ending_);
     *this = Wire();
+    channel_ = channel;
     role_ = role;
     hooks_ = std::move(hooks);
     coming_ = std::move(coming);
@@ -112,8 +114,9 @@ bool Wire::has_sent(coupling::message::Kind kind) const
     return std::find(sent_.begin(), sent_.end(), kind) != sent_.end();
 }
 
-void Wire::send(Frames frames)
+void Wire::send(void const* channel, Frames frames)
 {
+    if (channel != channel_) return;
     if (!open_) report("a message is sent over a closed channel");
     auto const message = coupling::message::decode(std::move(frames));  // throws: what we send we would refuse
     sent_.push_back(message.kind());
@@ -143,22 +146,22 @@ Socket Socket::bind(std::string const& endpoint, std::optional<ServerKeys> const
 Channel::Channel(Socket socket, double timeout, ChannelHooks hooks)
     : socket_(std::move(socket)), endpoint_(socket_.endpoint()), liveness_(timeout, Clock::now())
 {
-    fuzz::Wire::of_session().open(socket_.role(), std::move(hooks));
+    fuzz::Wire::of_session().open(this, socket_.role(), std::move(hooks));
 }
 
 Channel::~Channel()
 {
-    fuzz::Wire::of_session().close();
+    fuzz::Wire::of_session().close(this);
 }
 
 void Channel::send(Frames frames)
 {
-    fuzz::Wire::of_session().send(std::move(frames));
+    fuzz::Wire::of_session().send(this, std::move(frames));
 }
 
 void Channel::close(Clock::duration) noexcept
 {
-    fuzz::Wire::of_session().close();
+    fuzz::Wire::of_session().close(this);
 }
 
 }  // namespace gimdem::coupling::transport

@@ -36,14 +36,15 @@ public:
     bool has_sent(coupling::message::Kind kind) const;
     std::uint64_t session() const { return session_; }  ///< number that the server chose
 
-    // The channel's side.
-    void open(coupling::transport::Role role, coupling::transport::ChannelHooks hooks);
-    void send(coupling::transport::Frames frames);
-    void close() { open_ = false; }
+    // The channel's side. Only the first one is attended to: those of further ranks never hear of anybody.
+    void open(void const* channel, coupling::transport::Role role, coupling::transport::ChannelHooks hooks);
+    void send(void const* channel, coupling::transport::Frames frames);
+    void close(void const* channel) { open_ = open_ && channel != channel_; }
 
 private:
     bool is_letter(coupling::transport::Frames const& frames) const;
 
+    void const* channel_ = nullptr;
     coupling::transport::Role role_{};
     coupling::transport::ChannelHooks hooks_;
     bool open_ = false;

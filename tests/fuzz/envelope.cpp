@@ -7,11 +7,13 @@
 #include "Bytes.hpp"
 #include "MessageMaker.hpp"
 #include "message/Arrays.hpp"
+#include "message/CheckpointMessages.hpp"
 #include "message/Codec.hpp"
 #include "message/Control.hpp"
 #include "message/Greeting.hpp"
 #include "message/MeshMessage.hpp"
 #include "message/SharedArrays.hpp"
+#include "message/StatusMessages.hpp"
 #include "message/StepMessages.hpp"
 
 namespace gimdem::fuzz
@@ -57,6 +59,7 @@ void unpack(message::Message const& message)
     {
         case Kind::kHello:
             message::unpack_hello(message);
+            message::unpack_resume_point(message.envelope.hello());
             break;
         case Kind::kWelcome:
             message::unpack_welcome(message);
@@ -81,6 +84,15 @@ void unpack(message::Message const& message)
             break;
         case Kind::kGoodbye:
             message::unpack_goodbye(message);
+            break;
+        case Kind::kCheckpoint:
+            message::unpack_checkpoint_request(message);
+            break;
+        case Kind::kCheckpointSaved:
+            message::unpack_saved_checkpoint(message);
+            break;
+        case Kind::kStatus:
+            message::unpack_status(message);
             break;
         default:
             break;

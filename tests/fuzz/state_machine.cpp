@@ -99,7 +99,8 @@ void run_server(Bytes input)
     ServerOptions options;
     options.endpoint = "tcp://127.0.0.1:1";
     options.name = "server";
-    options.connect_time = options.step_time = 1;  // nobody should wait
+    options.connect_time = 0;  // who is not there at once never comes
+    options.step_time = 0.1;
     options.shared_memory = false;
     Server server(options);
     Script script(input);
@@ -156,7 +157,8 @@ void run_client(Bytes input)
     ClientOptions options;
     options.endpoint = "tcp://127.0.0.1:1";
     options.name = "client";
-    options.connect_time = options.step_time = 1;  // nobody should wait
+    options.connect_time = 0;  // who is not there at once never comes
+    options.step_time = 0.1;
     options.shared_memory = false;
     Client client(options);
     Script script(input);

@@ -56,12 +56,13 @@ public:
     unsigned number() { return random_(); }
     void nap(int most_milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(any(most_milliseconds))); }
 
-    std::string start_server(double timeout, bool ipc, std::string const& answer_time = "0")
+    std::string start_server(double timeout, bool ipc, std::string const& answer_time = "0",
+                             double connect_time = appears_in)
     {
         given_ = ipc ? unused_ipc_endpoint() : any_tcp_endpoint();
-        server.emplace(
-            std::vector<std::string>{GIMDEM_COUPLING_PEER, "server", given_, std::to_string(timeout), answer_time},
-            folder_ / "server.txt");
+        server.emplace(std::vector<std::string>{GIMDEM_COUPLING_PEER, "server", given_, std::to_string(timeout),
+                                                answer_time, std::to_string(connect_time)},
+                       folder_ / "server.txt");
         std::string const before = "bound to ";
         expect(server->wait_for_output("\n", appears_in), "the server did not start");
         std::string const output = server->output();
@@ -70,10 +71,10 @@ public:
         return output.substr(at + before.size(), output.find('\n', at) - at - before.size());
     }
     void start_client(std::string const& endpoint, double timeout, std::string const& steps,
-                      std::string const& step_time = "0")
+                      std::string const& step_time = "0", double connect_time = appears_in)
     {
         client.emplace(std::vector<std::string>{GIMDEM_COUPLING_PEER, "client", endpoint, std::to_string(timeout),
-                                                steps, step_time},
+                                                steps, step_time, std::to_string(connect_time)},
                        folder_ / "client.txt");
     }
     void wait_for_step(int step)
@@ -154,7 +155,8 @@ void kill_one(Scene& scene)
 /// SIGKILL while they greet each other; who has not yet spoken is waited for.
 void kill_early(Scene& scene)
 {
-    scene.start_client(scene.start_server(long_timeout, scene.coin()), long_timeout, endless);
+    std::string const endpoint = scene.start_server(long_timeout, scene.coin(), "0", short_timeout);
+    scene.start_client(endpoint, long_timeout, endless, "0", short_timeout);
     scene.nap(20);
     bool const server_dies = scene.coin();
     (server_dies ? scene.server : scene.client)->signal(SIGKILL);

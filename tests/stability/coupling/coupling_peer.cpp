@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// One end of a session in a process of its own, to be killed, stopped and lied to.
 ///
-/// Usage: coupling_peer server <endpoint> <time-out [s]> [<time for an answer [ms]>]
-///        coupling_peer client <endpoint> <time-out [s]> <steps> [<time for a fluid step [ms]>]
+/// Usage: coupling_peer server <endpoint> <time-out [s]> [<time for an answer [ms]> [<connect time [s]>]]
+///        coupling_peer client <endpoint> <time-out [s]> <steps> [<time for a fluid step [ms]> [<connect time [s]>]]
 /// Exit codes: 0 orderly end; 1 a fault, whose kind and text go to standard error; 2 wrong usage.
 #include <chrono>
 #include <cstdlib>
@@ -23,17 +23,21 @@ void pause(char const* milliseconds)
     if (milliseconds) std::this_thread::sleep_for(std::chrono::milliseconds(std::atoi(milliseconds)));
 }
 
-void serve(std::string const& endpoint, double timeout, char const* answer_time)
+void serve(std::string const& endpoint, double timeout, char const* answer_time, char const* connect_time)
 {
-    coupling::Server server(test::storm_server(endpoint, timeout));
+    coupling::ServerOptions options = test::storm_server(endpoint, timeout);
+    if (connect_time) options.connect_time = std::atof(connect_time);
+    coupling::Server server(options);
     std::cout << "bound to " << server.endpoint() << std::endl;
     test::serve(server, [&] { pause(answer_time); });
     std::cout << "goodbye: " << server.goodbye_reason() << std::endl;
 }
 
-void solve(std::string const& endpoint, double timeout, int steps, char const* step_time)
+void solve(std::string const& endpoint, double timeout, int steps, char const* step_time, char const* connect_time)
 {
-    coupling::Client client(test::storm_client(endpoint, timeout));
+    coupling::ClientOptions options = test::storm_client(endpoint, timeout);
+    if (connect_time) options.connect_time = std::atof(connect_time);
+    coupling::Client client(options);
     test::solve(client, steps,
                 [&](int step)
                 {
@@ -51,9 +55,10 @@ int main(int argc, char** argv)
     try
     {
         if (role == "server")
-            serve(argv[2], std::atof(argv[3]), argc > 4 ? argv[4] : nullptr);
+            serve(argv[2], std::atof(argv[3]), argc > 4 ? argv[4] : nullptr, argc > 5 ? argv[5] : nullptr);
         else if (role == "client" && argc > 4)
-            solve(argv[2], std::atof(argv[3]), std::atoi(argv[4]), argc > 5 ? argv[5] : nullptr);
+            solve(argv[2], std::atof(argv[3]), std::atoi(argv[4]), argc > 5 ? argv[5] : nullptr,
+                  argc > 6 ? argv[6] : nullptr);
         else
             return 2;
         return 0;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// coupling_storm: cycles, faults and a soak of the two ends of a session. Exit code 0: nothing went wrong.
 #include <CLI/CLI.hpp>
+#include <cstdio>
 
 #include "Storm.hpp"
 
 int main(int argc, char** argv)
 {
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);  // figures are seen as they come, also in a log
     int cycles = 0;
     int faults = 0;
     double soak = 0;
