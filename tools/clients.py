@@ -17,7 +17,7 @@ EXAMPLES = ROOT / "cfd-client" / "examples"
 
 @dataclass
 class Program:
-    """A client that is started as COMMAND ENDPOINT RUN_FOLDER, makes its own mesh, and ends with `NAME: why` on stderr
+    """A client that is started as COMMAND ENDPOINT RUN_FOLDER [KEYS], makes its own mesh, and ends with `NAME: why` on stderr
     and another exit code than 0 where it fails."""
 
     name: str
@@ -31,10 +31,7 @@ class Program:
         return f"by {self.name}"
 
     def start_command(self, folder: Path, endpoint: str, keys: str) -> list[str]:
-        if keys:
-            raise UserError(f"{self.name} is not told of [coupling] keys here (only OpenFOAM's client is); leave keys "
-                            "out, or start server and client by hand, docs/security.md", 2)
-        return [*self.command, endpoint, str(folder)]
+        return [*self.command, endpoint, str(folder)] + ([keys] if keys else [])
 
     def environment(self) -> dict[str, str]:
         return dict(os.environ)

@@ -18,6 +18,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("target", metavar="ENDPOINT|RUN_DIR", nargs="?",
                         help="a server's endpoint or a run folder (the newest run of a case below this folder)")
     parser.add_argument("--json", action="store_true", help="one JSON object, for programs")
+    parser.add_argument("--keys", metavar="DIR", help="folder of keys, for a server that has some")
     parser.add_argument("--patience", metavar="S", type=float, default=5.0, help="wait for the answer so long [s] (5)")
 
 
@@ -65,7 +66,8 @@ def newest_record() -> Record:
 def ask(endpoint: str, options: argparse.Namespace, *more: str) -> list[str]:
     if not server_binary().exists():
         raise UserError(f"{shown(server_binary())} is absent (it asks the server); run ./gimdem build")
-    return [str(server_binary()), "--status", endpoint, "--patience", str(options.patience), *more]
+    keys = ["--keys", options.keys] if options.keys else []
+    return [str(server_binary()), "--status", endpoint, "--patience", str(options.patience), *keys, *more]
 
 
 def ask_to_terminal(endpoint: str, options: argparse.Namespace) -> int:

@@ -2,7 +2,7 @@
 /*
  * The solver of column.cpp in C99, coupled with client.h.
  *
- * Usage: column-c <endpoint> <run folder>, which has constant/column; writes column.csv (a line a step) and
+ * Usage: column-c <endpoint> <run folder> [folder of keys], which has constant/column; writes column.csv (a line a step) and
  * profile.csv (a line a cell, at the end) there.
  */
 #include <math.h>
@@ -298,7 +298,7 @@ static gimdem_status run(gimdem_client* client, const struct settings* settings,
     return do_steps(client, welcome.end_time, settings, table);
 }
 
-static gimdem_status create(const char* endpoint, double timeout, gimdem_client** client)
+static gimdem_status create(const char* endpoint, double timeout, char const* keys, gimdem_client** client)
 {
     gimdem_client_options options;
     const gimdem_status status = gimdem_client_options_init(&options, sizeof options);
@@ -307,6 +307,7 @@ static gimdem_status create(const char* endpoint, double timeout, gimdem_client*
     options.endpoint = endpoint;
     options.name = "column-c";
     options.timeout = timeout;
+    options.keys = keys;
     return gimdem_client_create(&options, client);
 }
 
@@ -316,9 +317,9 @@ int main(int argc, char** argv)
     gimdem_client* client;
     gimdem_status status;
     FILE* table;
-    if (argc != 3)
+    if (argc != 3 && argc != 4)
     {
-        fprintf(stderr, "usage: column-c <endpoint> <run folder>\n");
+        fprintf(stderr, "usage: column-c <endpoint> <run folder> [folder of keys]\n");
         return 2;
     }
     if (!read_settings(argv[2], &settings)) return 1;
@@ -330,7 +331,7 @@ int main(int argc, char** argv)
     column.density = settings.density;
     make_mesh((int32_t)column.n, &settings);
 
-    status = create(argv[1], settings.timeout, &client);
+    status = create(argv[1], settings.timeout, argc == 4 ? argv[3] : NULL, &client);
     if (status == GIMDEM_OK) status = run(client, &settings, table);
     if (status != GIMDEM_OK) fprintf(stderr, "column-c: %s\n", gimdem_client_last_error());
     gimdem_client_destroy(client);

@@ -2,8 +2,8 @@
 /// A whole fluid solver in one file, coupled with Client.hpp: the gas in a column of cells, one above the other.
 /// column.c and column.py are the same solver in C and in Python.
 ///
-/// Usage: column-cpp <endpoint> <run folder>, which has constant/column; writes column.csv (a line a step) and
-/// profile.csv (a line a cell, at the end) there.
+/// Usage: column-cpp <endpoint> <run folder> [folder of keys], which has constant/column; writes column.csv (a line a
+/// step) and profile.csv (a line a cell, at the end) there.
 ///
 /// Volume-averaged equations of a gas of constant density (theory.md, F.1 and F.2) in one dimension, where friction at
 /// the walls and inertia are neglected: with q the superficial velocity and S the force of the particles per volume,
@@ -181,7 +181,7 @@ struct Column
     double outflow = 0;        ///< superficial velocity at the outlet [m/s]
 };
 
-void run(std::string const& endpoint, std::string const& folder)
+void run(std::string const& endpoint, std::string const& folder, std::string const& keys)
 {
     auto const settings = read_settings(folder + "/constant/column");
     int const n = static_cast<int>(settings.at("cells"));
@@ -195,6 +195,7 @@ void run(std::string const& endpoint, std::string const& folder)
     options.endpoint = endpoint;
     options.name = "column-cpp";
     options.timeout = settings.at("timeout");
+    options.keys = keys;
     Client client(options);
     Welcome const& welcome = client.connect({settings.at("density"), settings.at("viscosity")});
     client.send_mesh(view_of(mesh));
@@ -225,14 +226,14 @@ void run(std::string const& endpoint, std::string const& folder)
 
 int main(int argc, char** argv)
 {
-    if (argc != 3)
+    if (argc != 3 && argc != 4)
     {
-        std::cerr << "usage: column-cpp <endpoint> <run folder>\n";
+        std::cerr << "usage: column-cpp <endpoint> <run folder> [folder of keys]\n";
         return 2;
     }
     try
     {
-        run(argv[1], argv[2]);
+        run(argv[1], argv[2], argc == 4 ? argv[3] : "");
         return 0;
     }
     catch (std::exception const& error)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The solver of column.cpp in Python, coupled with coupling/python/gimdem_client.
 
-Usage: column.py <endpoint> <run folder>, which has constant/column; writes column.csv (a line a step) and
+Usage: column.py <endpoint> <run folder> [folder of keys], which has constant/column; writes column.csv (a line a step) and
 profile.csv (a line a cell, at the end) there.
 """
 from __future__ import annotations
@@ -101,7 +101,7 @@ class Column:
         file.write_text("\n".join(lines) + "\n")
 
 
-def run(endpoint: str, folder: Path) -> None:
+def run(endpoint: str, folder: Path, keys: str) -> None:
     settings = read_settings(folder / "constant" / "column")
     n, dt = int(settings["cells"]), settings["time_step"]
     column = Column(n, settings["height"] / n, settings["width"] * settings["depth"], settings["density"])
@@ -109,7 +109,7 @@ def run(endpoint: str, folder: Path) -> None:
     def inflow_at(t: float) -> float:
         return settings["inflow"] * min(1.0, t / settings["ramp_time"])
 
-    with Client(ClientOptions(endpoint, "column-python", timeout=settings["timeout"])) as client, \
+    with Client(ClientOptions(endpoint, "column-python", timeout=settings["timeout"], keys=keys)) as client, \
             (folder / "column.csv").open("w") as table:
         welcome = client.connect(FluidProperties(settings["density"], settings["viscosity"]))
         client.send_mesh(make_mesh(n, settings["width"], settings["depth"], settings["height"]))
@@ -133,11 +133,11 @@ def run(endpoint: str, folder: Path) -> None:
 
 
 def main() -> int:
-    if len(sys.argv) != 3:
-        print("usage: column.py <endpoint> <run folder>", file=sys.stderr)
+    if len(sys.argv) not in (3, 4):
+        print("usage: column.py <endpoint> <run folder> [folder of keys]", file=sys.stderr)
         return 2
     try:
-        run(sys.argv[1], Path(sys.argv[2]))
+        run(sys.argv[1], Path(sys.argv[2]), "".join(sys.argv[3:]))
         return 0
     except (CouplingError, OSError, KeyError) as error:
         print(f"column-python: {error}", file=sys.stderr)

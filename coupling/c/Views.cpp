@@ -34,6 +34,8 @@ std::optional<Schedule> schedule_of(std::int32_t given)
             return Schedule::serial;
         case GIMDEM_SCHEDULE_OVERLAPPED:
             return Schedule::overlapped;
+        case GIMDEM_SCHEDULE_ITERATED:
+            return Schedule::iterated;
         default:
             refuse("gimdem_client_options.schedule is " + std::to_string(given) +
                    " (it is one of GIMDEM_SCHEDULE_...); choose one");
@@ -81,6 +83,9 @@ ClientOptions options_of(gimdem_client_options const& given)
     if (given.step_time != 0) options.step_time = given.step_time;
     options.schedule = schedule_of(given.schedule);
     options.shared_memory = given.no_shared_memory == 0;
+    options.iterates = given.iterates != 0;
+    options.rank = {given.rank, given.rank_count == 0 ? 1 : given.rank_count, given.run};
+    options.keys = text(given.keys);
     for (char const* name : array(given.wants, given.want_count, "gimdem_client_options.wants"))
         options.wants.push_back(text(name));
     return options;
@@ -99,7 +104,8 @@ MeshView view_of(gimdem_mesh const& given)
     mesh.neighbour = array(given.neighbour, given.internal_face_count, "gimdem_mesh.neighbour");
     mesh.cell_count = given.cell_count;
     for (gimdem_patch const& patch : array(given.patches, given.patch_count, "gimdem_mesh.patches"))
-        mesh.patches.push_back({text(patch.name), kind_of(patch), patch.start_face, patch.face_count});
+        mesh.patches.push_back(
+            {text(patch.name), kind_of(patch), patch.start_face, patch.face_count, patch.neighbour_rank});
     return mesh;
 }
 

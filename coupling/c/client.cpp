@@ -19,6 +19,7 @@ struct gimdem_client
     Client client;
     std::size_t cell_count = 0;
     std::vector<char const*> needs;  ///< texts of client.welcome()
+    std::vector<char const*> rank_endpoints;
 };
 
 namespace
@@ -93,15 +94,44 @@ gimdem_client& checked(gimdem_client* client)
     return c::require(client, "the client");
 }
 
-gimdem_welcome plain(Welcome const& welcome, std::vector<char const*> const& needs)
+std::int32_t plain(Schedule schedule)
+{
+    switch (schedule)
+    {
+        case Schedule::serial:
+            return GIMDEM_SCHEDULE_SERIAL;
+        case Schedule::overlapped:
+            return GIMDEM_SCHEDULE_OVERLAPPED;
+        case Schedule::iterated:
+            return GIMDEM_SCHEDULE_ITERATED;
+    }
+    return GIMDEM_SCHEDULE_OF_SERVER;
+}
+
+std::vector<char const*> pointers(std::vector<std::string> const& texts)
+{
+    std::vector<char const*> result;
+    for (std::string const& text : texts)
+        result.push_back(text.c_str());
+    return result;
+}
+
+gimdem_welcome plain(Welcome const& welcome, gimdem_client const& handle)
 {
     gimdem_welcome result{};
     result.server = welcome.server.c_str();
     result.title = welcome.title.c_str();
     result.end_time = welcome.end_time;
-    result.needs = needs.data();
-    result.need_count = needs.size();
-    result.schedule = welcome.schedule == Schedule::serial ? GIMDEM_SCHEDULE_SERIAL : GIMDEM_SCHEDULE_OVERLAPPED;
+    result.needs = handle.needs.data();
+    result.need_count = handle.needs.size();
+    result.rank_endpoints = handle.rank_endpoints.data();
+    result.rank_endpoint_count = handle.rank_endpoints.size();
+    result.tolerance = welcome.iteration.tolerance;
+    result.relaxation = welcome.iteration.relaxation;
+    result.max_passes = welcome.iteration.max_passes;
+    result.must_converge = welcome.iteration.must_converge ? 1 : 0;
+    result.schedule = plain(welcome.schedule);
+    result.fluid_steps = welcome.fluid_steps;
     return result;
 }
 
@@ -110,10 +140,9 @@ void connect(gimdem_client& handle, gimdem_fluid_properties const* fluid, gimdem
     auto const given = c::read(fluid, "gimdem_fluid_properties");
     if (target != nullptr) c::require_room(target, "gimdem_welcome");
     Welcome const& welcome = handle.client.connect({given.density, given.viscosity});
-    handle.needs.clear();
-    for (std::string const& name : welcome.needs)
-        handle.needs.push_back(name.c_str());
-    if (target != nullptr) c::write(plain(welcome, handle.needs), target);
+    handle.needs = pointers(welcome.needs);
+    handle.rank_endpoints = pointers(welcome.rank_endpoints);
+    if (target != nullptr) c::write(plain(welcome, handle), target);
 }
 
 void begin_step(gimdem_client& handle, gimdem_step const* step, gimdem_fluid_fields const* fluid,
@@ -193,20 +222,31 @@ gimdem_status gimdem_client_begin_step(gimdem_client* client, gimdem_step const*
     return guarded([&] { begin_step(checked(client), step, fluid, c::monitors_of(monitors, monitor_count), solid); });
 }
 
+gimdem_status gimdem_client_iterate_step(gimdem_client* client, gimdem_fluid_fields const* estimate, double residual,
+                                         gimdem_solid_fields* solid)
+{
+    return guarded(
+        [&]
+        {
+            gimdem_client& handle = checked(client);
+            auto const fields = c::read(estimate, "gimdem_fluid_fields");
+            c::require_room(solid, "gimdem_solid_fields");
+            c::write(c::plain(handle.client.iterate_step(c::fields_of(fields), residual), handle.cell_count), solid);
+        });
+}
+
 gimdem_status gimdem_client_end_step(gimdem_client* client, gimdem_timings const* timings)
 {
     return guarded(
         [&]
         {
             gimdem_client& handle = checked(client);
+            gimdem_timings given{};
+            if (timings != nullptr) given = c::read(timings, "gimdem_timings");
             Timings known;
-            if (timings != nullptr)
-            {
-                auto const given = c::read(timings, "gimdem_timings");
-                known.compute = given.compute;
-                known.output = given.output;
-            }
-            handle.client.end_step(known);
+            known.compute = given.compute;
+            known.output = given.output;
+            handle.client.end_step(known, given.residual);
         });
 }
 

@@ -42,7 +42,7 @@ void ForceCheck::take(coupling::FluidState const& fluid)
 
 void ForceCheck::compare(std::int64_t step, Force const& told, std::vector<double> const& at_end)
 {
-    bool const serial = schedule_ == coupling::Schedule::serial;
+    bool const serial = schedule_ != coupling::Schedule::overlapped;
     double const right = best_deviation(serial ? step : step - 1, step, at_end, told);
     double const other = best_deviation(serial ? step - 1 : step, step, at_end, told);
     ++compared_;
@@ -93,7 +93,7 @@ void ForceCheck::report(FindingsFile& findings) const
         findings.skip("time level", text);
         return;
     }
-    bool const serial = schedule_ == coupling::Schedule::serial;
+    bool const serial = schedule_ != coupling::Schedule::overlapped;
     int const known = right_ + other_level_;
     char text[120];
     std::snprintf(text, sizeof text, "%d of %d steps apply the force that was sent, to %.1e", known, compared_, worst_);

@@ -16,9 +16,9 @@ namespace gimdem::conformance
 {
 
 /// The client reports monitors applied_force_x, _y, _z with each FluidState: the force of the particles on its fluid in
-/// the step before, sum of S V [N]. It is compared with that of the known solid after this step (serial) or the one
-/// before (overlapped), and, to name a mistake, with the other; each at the velocity at the end of the step (implicit
-/// drag), at its beginning (explicit), or where momentum_source was computed.
+/// the step before, sum of S V [N]. It is compared with that of the known solid after this step (serial, iterated) or
+/// the one before (overlapped), and, to name a mistake, with the other; each at the velocity at the end of the step
+/// (implicit drag), at its beginning (explicit), or where momentum_source was computed.
 class ForceCheck
 {
 public:

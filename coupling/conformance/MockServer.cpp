@@ -59,6 +59,8 @@ public:
         findings_.pass("fields",
                        text("%d fields of ", static_cast<int>(script_.needs.size())) + cells + " in each step");
         findings_.check("steps", steps_ > 0, text("%d, contiguous, to t = %.6g s", steps_, time_));
+        if (script_.schedule == Schedule::iterated)
+            findings_.check("passes", passes_ > 0, text("%d steps were repeated %d times", steps_, passes_));
         if (script_.misbehaviour == Misbehaviour::none) report_end(force);
         return ended;
     }
@@ -77,6 +79,7 @@ private:
         ServerOptions options;
         options.endpoint = script.endpoint;
         options.name = "gimdem-mock-server";
+        options.keys = script.keys;
         options.timeout = script.timeout;
         options.connect_time = script.connect_time;
         options.step_time = 600;
@@ -96,6 +99,7 @@ private:
                         text("\"%s\", density %.6g kg/m^3, viscosity %.6g Pa s", client.name.c_str(),
                              client.fluid.density, client.fluid.viscosity));
         if (client.schedule) findings_.tell("schedule", name_of(*client.schedule));
+        if (client.iterates) findings_.tell("iterates", "");
         stage_ = "mesh";
         return client;
     }
@@ -122,8 +126,9 @@ private:
             steps_ = static_cast<int>(fluid->step.number);
             time_ = fluid->step.time + fluid->step.dt;
             dt_ = fluid->step.dt;
-            force.take(*fluid);
-            if (fluid->step.number == script_.at && !misbehave()) return false;
+            if (fluid->pass == 0) force.take(*fluid);
+            passes_ += fluid->pass > 0 ? 1 : 0;
+            if (fluid->step.number == script_.at && fluid->pass == 0 && !misbehave()) return false;
             server_.send_solid(solid.after(fluid->step.number, fluid->fields.velocity), {});
         }
         if (script_.misbehaviour == Misbehaviour::request_stop)
@@ -177,6 +182,7 @@ private:
     int steps_ = 0;
     double time_ = 0;  ///< the end of the last step [s]
     double dt_ = 0;    ///< of the last step [s]
+    int passes_ = 0;   ///< beyond the first of each step
     bool asked_to_stop_ = false;
     int steps_after_stop_ = 0;
 };

@@ -32,6 +32,7 @@ inline constexpr char const* mock_reason = "because the script of the mock serve
 struct Script
 {
     std::string endpoint;
+    std::string keys;  ///< folder of keys; empty: none
     coupling::Schedule schedule = coupling::Schedule::serial;
     double end_time = 0.01;  ///< told to the client [s]
     std::vector<std::string> needs{coupling::field::velocity, coupling::field::velocity_gradient,

@@ -113,7 +113,8 @@ TrialResult run_trial(TrialOptions const& options, Script script, std::string co
     result.findings = read_findings(base + ".findings");
     result.output = contents(base + ".output");
     if (auto const timeout = read_fact(base + ".findings", "timeout")) result.timeout = std::atof(timeout->c_str());
-    result.insists_on_serial = read_fact(base + ".findings", "schedule") == "serial";
+    result.insists_on = read_fact(base + ".findings", "schedule").value_or("");
+    result.iterates = read_fact(base + ".findings", "iterates").has_value();
     return result;
 }
 

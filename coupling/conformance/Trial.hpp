@@ -29,7 +29,8 @@ struct TrialResult
     double late = 0;                ///< from the misbehaviour, or the server's end, to the client's end [s]
     std::string output;             ///< of the client
     std::optional<double> timeout;  ///< of the client, where it was told [s]
-    bool insists_on_serial = false;
+    std::string insists_on;         ///< a schedule, or empty
+    bool iterates = false;          ///< it can
 };
 
 /// extra: patience beyond the usual [s].

@@ -44,6 +44,11 @@ public:
         Trial const all[] = {
             {"serial", [this](auto const& name) { whole_run(name, Schedule::serial); }},
             {"overlapped", [this](auto const& name) { whole_run(name, Schedule::overlapped); }},
+            {"iterated",
+             [this](auto const& name)
+             {
+                 if (iterates_) whole_run(name, Schedule::iterated);
+             }},
             {"stop request", [this](auto const& name) { stop_request(name); }},
             {"wrong version", [this](auto const& name) { refusal(name, Misbehaviour::wrong_version); }},
             {"refused mesh", [this](auto const& name) { refusal(name, Misbehaviour::refuse_mesh); }},
@@ -83,12 +88,14 @@ private:
         Script plain = script(Misbehaviour::none);
         plain.schedule = schedule;
         TrialResult const result = try_out(plain);
-        if (schedule == Schedule::overlapped && result.insists_on_serial)
-            return tell_({name, Verdict::skipped, "not tried: the client insists on the serial schedule"});
+        iterates_ = result.iterates;
+        if (!result.insists_on.empty() && result.insists_on != name)
+            return tell_(
+                {name, Verdict::skipped, "not tried: the client insists on the schedule " + result.insists_on});
         for (Finding finding : result.findings)
         {
             bool const once = finding.name == "handshake" || finding.name == "mesh";
-            if (schedule == Schedule::overlapped && once && finding.verdict == Verdict::passed) continue;
+            if (schedule != Schedule::serial && once && finding.verdict == Verdict::passed) continue;
             finding.name = name + ": " + finding.name;
             tell_(finding);
         }
@@ -170,6 +177,7 @@ private:
     Script const& script_;
     std::function<void(Finding const&)> const& tell_;
     std::optional<double> timeout_;  ///< of the client, once it is known [s]
+    bool iterates_ = true;           ///< the client repeats steps, as far as is known
     int count_ = 0;
 };
 

@@ -16,7 +16,8 @@ int main(int argc, char** argv)
 {
     using namespace gimdem::conformance;
     using gimdem::coupling::Schedule;
-    std::map<std::string, Schedule> const schedules{{"serial", Schedule::serial}, {"overlapped", Schedule::overlapped}};
+    std::map<std::string, Schedule> const schedules{
+        {"serial", Schedule::serial}, {"overlapped", Schedule::overlapped}, {"iterated", Schedule::iterated}};
     std::map<std::string, Misbehaviour> const misbehaviours{{"none", Misbehaviour::none},
                                                             {"refuse-mesh", Misbehaviour::refuse_mesh},
                                                             {"request-stop", Misbehaviour::request_stop},
@@ -30,6 +31,7 @@ int main(int argc, char** argv)
     Script script;
     CLI::App app("gimdem-mock-server: a server without particles, to try a client with");
     app.add_option("--endpoint", script.endpoint, "ipc:///path/of/socket, tcp://127.0.0.1:port or ...:*")->required();
+    app.add_option("--keys", script.keys, "folder of keys, docs/security.md");
     app.add_option("--schedule", script.schedule, "told to the client")
         ->transform(CLI::CheckedTransformer(schedules, CLI::ignore_case));
     app.add_option("--until", script.end_time, "end time told to the client [s]");

@@ -27,6 +27,10 @@ using Silence = transport::Reply::Silence;
             throw CouplingError(Fault::protocol, "who listens" + where +
                                                      " is not a gimdem server (it does not speak ZeroMQ); give the "
                                                      "endpoint of a server that runs");
+        case Silence::locked_out:
+            throw CouplingError(Fault::user, "the server" + where +
+                                                 " does not let us in (it has keys, and ours are absent or unknown to "
+                                                 "it); give the folder of keys of one of its clients");
         case Silence::hung_up:
             throw CouplingError(Fault::peer, "the server" + where +
                                                  " has ended without an answer (its connection broke); its own output "
@@ -44,10 +48,12 @@ using Silence = transport::Reply::Silence;
 
 }  // namespace
 
-Status query_status(std::string const& endpoint, double timeout)
+Status query_status(std::string const& endpoint, double timeout, std::string const& keys)
 {
+    std::optional<transport::ClientKeys> own;
+    if (!keys.empty()) own = transport::read_client_keys(keys);
     transport::Reply reply =
-        transport::ask(endpoint, message::encode(message::pack_status_request("gimdem status")), timeout);
+        transport::ask(endpoint, message::encode(message::pack_status_request("gimdem status")), timeout, own);
     if (reply.frames.empty()) explain(reply.silence, endpoint, timeout);
     try
     {

@@ -22,7 +22,7 @@ char const* const monitor_address = "inproc://question";
 class QuestionSocket
 {
 public:
-    explicit QuestionSocket(Address const& address)
+    QuestionSocket(Address const& address, std::optional<ClientKeys> const& keys)
         : context_(1), socket_(context_, zmq::socket_type::dealer), monitor_(context_, zmq::socket_type::pair)
     {
         socket_.set(zmq::sockopt::linger, 0);
@@ -30,6 +30,12 @@ public:
         socket_.set(zmq::sockopt::ipv6, address.ipv6);
         if (zmq_socket_monitor(socket_.handle(), monitor_address, ZMQ_EVENT_ALL) != 0) throw zmq::error_t();
         monitor_.connect(monitor_address);
+        if (keys)
+        {
+            socket_.set(zmq::sockopt::curve_serverkey, keys->server);
+            socket_.set(zmq::sockopt::curve_publickey, keys->own.public_key);
+            socket_.set(zmq::sockopt::curve_secretkey, keys->own.secret_key);
+        }
         socket_.connect(address.text);
     }
     ~QuestionSocket() { zmq_socket_monitor(socket_.handle(), nullptr, 0); }
@@ -77,9 +83,11 @@ public:
             std::memcpy(&event, frame.data(), sizeof(event));
             if (event == ZMQ_EVENT_CONNECTED) connected_ = true;
             if (event == ZMQ_EVENT_HANDSHAKE_SUCCEEDED) greeted_ = true;
+            // ZeroMQ on either side: it is the keys that do not fit.
+            if (event == ZMQ_EVENT_HANDSHAKE_FAILED_AUTH || event == ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL)
+                return Reply::Silence::locked_out;
             bool const closed = event == ZMQ_EVENT_CLOSED || event == ZMQ_EVENT_CONNECT_RETRIED ||
-                                event == ZMQ_EVENT_DISCONNECTED || event == ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL ||
-                                event == ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL;
+                                event == ZMQ_EVENT_DISCONNECTED || event == ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL;
             if (closed)
                 return !connected_ ? Reply::Silence::nobody
                        : !greeted_ ? Reply::Silence::not_zeromq
@@ -103,13 +111,13 @@ private:
 
 }  // namespace
 
-Reply ask(std::string const& endpoint, Frames question, double timeout)
+Reply ask(std::string const& endpoint, Frames question, double timeout, std::optional<ClientKeys> const& keys)
 {
     Time const deadline = Clock::now() + ticks(timeout);
-    Address const address = parse_address(endpoint, Role::client);
+    Address const address = parse_address(endpoint, Role::client, keys ? Protection::keys : Protection::none);
     try
     {
-        QuestionSocket socket(address);
+        QuestionSocket socket(address, keys);
         socket.send(question);
         while (Clock::now() < deadline)
         {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "transport/Frames.hpp"
+#include "transport/Keys.hpp"
 
 namespace gimdem::coupling::transport
 {
@@ -17,6 +18,7 @@ struct Reply
     {
         nobody,       ///< nobody listens at the address
         not_zeromq,   ///< somebody does, but does not speak ZeroMQ
+        locked_out,   ///< the server does not let our key in, or wants one
         hung_up,      ///< the connection ended without an answer
         no_answer,    ///< the time was up, on a connection that stands
         no_greeting,  ///< the time was up, before ZeroMQ's own handshake was over
@@ -26,6 +28,6 @@ struct Reply
 };
 
 /// Waits so many seconds at most. Fault::endpoint for an address that is not allowed.
-Reply ask(std::string const& endpoint, Frames question, double timeout);
+Reply ask(std::string const& endpoint, Frames question, double timeout, std::optional<ClientKeys> const& keys);
 
 }  // namespace gimdem::coupling::transport

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,10 +55,14 @@ private:
     void load(std::filesystem::path const& file);
     void accept_mesh();
     void finish_records();
+    /// In serial runs the client, which waits, can be asked for the cells that it left out. Empty: there are none.
+    std::function<coupling::FluidFields()> whole(coupling::FluidState& fluid);
+    /// For the solid of a step that ends at `time` [s], and the fluid of the next one.
+    coupling::StepCells cells_to_send(double time);
     /// Returns how long output took [s].
     double begin_step(coupling::FluidState const& fluid, double waited);
     /// The same for a pass after the first.
-    double repeat_step();
+    double repeat_step(double waited);
     /// The step that was answered last stands.
     void accept();
     void require_same(coupling::ClientInfo const& client) const;
@@ -85,6 +90,7 @@ private:
     std::int64_t complete_step_ = 0;  ///< of the newest checkpoint to which the client has a fluid
     bool is_asked_ = false;           ///< the client asks for checkpoints
     std::int64_t kept_ = -1;          ///< step of the last checkpoint
+    bool is_in_step_ = false;         ///< the particles move: theirs is the state of no time
 };
 
 }  // namespace gimdem::app

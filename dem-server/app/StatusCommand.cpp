@@ -102,9 +102,9 @@ std::string status_json(coupling::Status const& status)
     return out + R"(, "figures": [)" + figures + "]}";
 }
 
-void print_status(std::string const& endpoint, double timeout, bool as_json)
+void print_status(std::string const& endpoint, double timeout, std::string const& keys, bool as_json)
 {
-    coupling::Status const status = coupling::query_status(endpoint, timeout);
+    coupling::Status const status = coupling::query_status(endpoint, timeout, keys);
     std::cout << (as_json ? status_json(status) + "\n" : status_text(status)) << std::flush;
 }
 

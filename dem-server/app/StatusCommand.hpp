@@ -14,7 +14,7 @@ std::string status_text(coupling::Status const& status);
 /// For programs: one JSON object in a line; a number that is not known is null.
 std::string status_json(coupling::Status const& status);
 
-/// Prints the status of the server at that endpoint, waiting for it so long at most [s].
-void print_status(std::string const& endpoint, double timeout, bool as_json);
+/// Prints the status of the server at that endpoint, waiting for it so long at most [s]. keys: a folder, or empty.
+void print_status(std::string const& endpoint, double timeout, std::string const& keys, bool as_json);
 
 }  // namespace gimdem::app

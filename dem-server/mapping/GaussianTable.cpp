@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mapping/CellCurves.hpp"
 #include "mapping/TabulatedIntegral.hpp"
 
 namespace gimdem
@@ -89,7 +90,16 @@ double GaussianTables::add_table(double radius, double volume)
                                       std::abs(static_cast<double>(Fit::value(c, 0.5L)) - pair(h * (i + 1))));
         usable_ = usable_ && error < error_bound;
     }
+    add_curve(radius, volume, h * pair.narrow);
     return h;
+}
+
+void GaussianTables::add_curve(double radius, double volume, double interval)
+{
+    curves_.resize(curves_.size() + 1);
+    SharedCurve& shared = curves_[curves_.size() - 1];
+    double const error = make_curve(shared.curve, radius, {0, 0, 0, volume}, fixed_coefficient_);
+    shared.per_table = 2 * error < error_bound ? shared.curve.scale * interval * interval : 0;
 }
 
 GaussianTableView GaussianTables::view() const

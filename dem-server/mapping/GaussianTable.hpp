@@ -9,6 +9,7 @@
 
 #include "exec/Buffer.hpp"
 #include "exec/HostDevice.hpp"
+#include "mapping/CellCurve.hpp"
 #include "mesh/PolyMesh.hpp"
 #include "particles/ParticleState.hpp"
 
@@ -71,6 +72,13 @@ struct GaussianTableView
     }
 };
 
+/// A table's function once more as a curve, for eight cells that share a table.
+struct SharedCurve
+{
+    CellCurve curve;   ///< its scale and offset are not used
+    double per_table;  ///< x^4 of the curve over x^2 of the table; 0: the curve is too coarse
+};
+
 /// The tables of all pairs of the scene's radii and its classes of cells.
 class GaussianTables
 {
@@ -91,10 +99,13 @@ public:
     bool provide(ParticleState const& particles);
 
     GaussianTableView view() const;
+    /// Of each table, in the order of the tables.
+    exec::Buffer<SharedCurve> const& curves() const { return curves_; }
 
 private:
     void add_row(double radius);
-    double add_table(double radius, double volume);  ///< returns the width of its intervals
+    double add_table(double radius, double volume);                 ///< returns the width of its intervals
+    void add_curve(double radius, double volume, double interval);  ///< of the table, as a distance [m]
 
     std::vector<double> volumes_;         ///< per cell [m^3]
     std::vector<std::int32_t> class_of_;  ///< per cell
@@ -102,6 +113,7 @@ private:
     exec::Buffer<double> radii_;
     exec::Buffer<TabulatedPair> pairs_;
     exec::Buffer<double> coefficients_;
+    exec::Buffer<SharedCurve> curves_;
     double fixed_coefficient_;
     bool usable_ = true;
 };

@@ -17,6 +17,7 @@ namespace gimdem
 struct SurfaceDistance
 {
     MeshKernelView mesh;
+    bool with_triangles = true;  ///< else it is 0 next to a warped face: that is quicker
 
     double operator()(std::int32_t cell, Vec3 const& x) const
     {
@@ -26,6 +27,7 @@ struct SurfaceDistance
             std::int32_t const face = mesh.cell_faces[k];
             // A face is within its warp of its plane.
             double const beyond = std::abs(mesh.distance_outside(face, cell, x)) - mesh.face_normal[face].w;
+            if (!(beyond > 0) && !with_triangles) return 0;
             double const distance = beyond > 0 ? beyond : to_triangles(face, x);
             least = distance < least ? distance : least;
         }
@@ -60,18 +62,21 @@ struct LocateMovedKernel
     {
         Quad const x = anew.position[p];
         anew.status[p] = 0;
-        if (sure[p].w > 0 && (x.xyz() - sure[p].xyz()).squaredNorm() < sure[p].w * sure[p].w) return;
+        double const way2 = (x.xyz() - sure[p].xyz()).squaredNorm();
+        if (sure[p].w > 0 && way2 < sure[p].w * sure[p].w) return;
         Location const at = anew.locate(p);
-        sure[p] = Quad::of(x.xyz(), at.is_certain || at.is_enclosed ? sure_distance(at.cell, x.xyz()) : -1);
+        sure[p] = Quad::of(x.xyz(), at.is_certain || at.is_enclosed ? sure_distance(at.cell, x.xyz(), way2) : -1);
     }
 
 private:
-    /// A tenth stays for rounding, and who is next to a face is looked at each time. The cell encloses x.
-    double sure_distance(std::int32_t cell, Vec3 const& x) const
+    /// A tenth stays for rounding, and who is next to a face is looked at each time. The cell encloses x. Distances to
+    /// triangles pay for particles that are slow: `way2` is the square of the way since the last search.
+    double sure_distance(std::int32_t cell, Vec3 const& x, double way2) const
     {
         MeshKernelView const& mesh = anew.find.mesh;
-        double const distance = SurfaceDistance{mesh}(cell, x);
-        return distance * distance * distance > 1e-15 * mesh.cell[cell].w ? 0.9 * distance : -1;
+        double const size = std::cbrt(mesh.cell[cell].w);
+        double const distance = SurfaceDistance{mesh, way2 < 1e-4 * size * size}(cell, x);
+        return distance > 1e-5 * size ? 0.9 * distance : -1;
     }
 };
 

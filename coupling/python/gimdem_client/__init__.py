@@ -11,14 +11,15 @@
         client.finish("end time reached")                     # Goodbye
 
 Needs pyzmq, protobuf, numpy and, for its first import, protoc. SI units; arrays of numpy with a row for each cell.
-Each call raises CouplingError on a fault. Fields travel as plain frames, never through shared memory.
+Each call raises CouplingError on a fault. Fields travel as plain frames, never through shared memory; one process solves the
+fluid. Schedule iterated: iterate_step() between begin_step() and end_step() repeats the step.
 """
 from .client import Client
 from .errors import CouplingError, Fault
-from .types import (ClientOptions, ExchangeTimes, FluidFields, FluidProperties, Mesh, Monitor, Patch, SolidFields, Step,
-                    Timings, Welcome)
+from .types import (ClientOptions, ExchangeTimes, FluidFields, FluidProperties, Iteration, Mesh, Monitor, Patch, SolidFields,
+                    Step, Timings, Welcome)
 
 __all__ = [
-    "Client", "ClientOptions", "CouplingError", "ExchangeTimes", "Fault", "FluidFields", "FluidProperties", "Mesh",
-    "Monitor", "Patch", "SolidFields", "Step", "Timings", "Welcome",
+    "Client", "ClientOptions", "CouplingError", "ExchangeTimes", "Fault", "FluidFields", "FluidProperties", "Iteration",
+    "Mesh", "Monitor", "Patch", "SolidFields", "Step", "Timings", "Welcome",
 ]

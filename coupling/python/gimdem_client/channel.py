@@ -15,6 +15,7 @@ from typing import Optional, Union
 import zmq
 from zmq.utils.monitor import recv_monitor_message
 
+from .keys import Keys
 from .wire import Envelope
 
 BEATS_PER_TIMEOUT = 5  # docs/protocol.md, Time-outs
@@ -33,7 +34,8 @@ Letter = tuple[Envelope, list[bytes], float]  # with the time of its arrival
 
 
 class Channel:
-    def __init__(self, endpoint: str, timeout: float, heartbeat: Callable[[], bytes]) -> None:
+    def __init__(self, endpoint: str, timeout: float, heartbeat: Callable[[], bytes],
+                 keys: Optional[Keys] = None) -> None:
         self.contact = threading.Event()  # the server has said something
         self.last_heartbeat: Optional[Envelope] = None  # of the server
         self.bytes = 0
@@ -45,7 +47,7 @@ class Channel:
         self._closing = False
         self._ended = False
         self._context = zmq.Context()
-        self._socket = self._connect(endpoint)
+        self._socket = self._connect(endpoint, keys)
         self._monitor = self._socket.get_monitor_socket(zmq.EVENT_HANDSHAKE_SUCCEEDED | zmq.EVENT_DISCONNECTED)
         self._wakeup, self._woken = self._pair()
         self._thread = threading.Thread(target=self._run, name="gimdem channel", daemon=True)
@@ -80,13 +82,15 @@ class Channel:
         self._socket.close(linger=int(1000 * linger) if listens else 0)
         self._context.term()
 
-    def _connect(self, endpoint: str) -> zmq.Socket:
+    def _connect(self, endpoint: str, keys: Optional[Keys]) -> zmq.Socket:
         socket = self._context.socket(zmq.DEALER)
         socket.linger = 0
         socket.sndhwm = socket.rcvhwm = 0
         socket.maxmsgsize = MAX_FRAME_BYTES
         socket.reconnect_ivl = 20
         socket.ipv6 = "[" in endpoint
+        if keys:
+            socket.curve_serverkey, socket.curve_publickey, socket.curve_secretkey = keys.server, keys.public, keys.secret
         socket.connect(endpoint)
         return socket
 

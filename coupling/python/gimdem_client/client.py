@@ -11,18 +11,22 @@ from typing import Any, NoReturn, Optional
 from . import messages
 from .channel import Channel, Ending, Letter
 from .errors import CouplingError, Fault
+from .keys import read_keys
 from .record import StepRecord
 from .types import (FLUID_FIELDS, SCHEDULES, SOLID_FIELDS, ClientOptions, ExchangeTimes, FluidFields, FluidProperties,
-                    Mesh, Monitor, SolidFields, Step, Timings, Welcome)
+                    Iteration, Mesh, Monitor, SolidFields, Step, Timings, Welcome)
 from .wire import MAJOR, MINOR, Envelope
 
 LINGER = 1.0  # for the last words to leave [s]
 # In which state each call is legal.
 LEGAL = {
     "connect": ("created",), "send_mesh": ("welcomed",), "begin_step": ("ready",),
-    "end_step": ("solving", "overlapping"),
-    "finish": ("created", "welcomed", "ready", "solving", "overlapping", "finished"),
+    "iterate_step": ("iterating",), "end_step": ("solving", "overlapping", "iterating"),
+    "finish": ("created", "welcomed", "ready", "solving", "overlapping", "iterating", "finished"),
 }
+# Of begin_step(): the state while it waits, and the one after it.
+STEPPING = {"serial": ("waiting", "solving"), "overlapped": ("overlapping", "overlapping"),
+            "iterated": ("awaiting", "iterating")}
 
 
 class Client:
@@ -35,6 +39,7 @@ class Client:
             raise messages.user_fault(f"ClientOptions.wants or .schedule is unknown ({unknown or options.schedule}); fields "
                                       f"are {list(SOLID_FIELDS)}, schedules {list(SCHEDULES)}")
         self.options = options
+        self._keys = read_keys(options.keys) if options.keys else None
         self.welcome: Optional[Welcome] = None
         self.solid = SolidFields()  # the last one received
         self.stop_request: Optional[str] = None  # why the server asks for an orderly end
@@ -42,12 +47,13 @@ class Client:
         self._wants = {name: SOLID_FIELDS[name] for name in SOLID_FIELDS if name in options.wants}
         self._state = "created"
         self._progress = 0
-        self._step = 0
+        self._step = Step(0, 0.0, 0.0)
+        self._pass = 0
+        self._residual = 0.0  # of the last pass of the step before
         self._session = 0
         self._cell_count = 0
         self._previous = Timings()
         self._last_fault = ""
-        self._sent_at = 0.0
         self._record = StepRecord()
         self._channel: Optional[Channel] = None
 
@@ -62,7 +68,7 @@ class Client:
     def connect(self, fluid: FluidProperties) -> Welcome:
         self._require("connect")
         options = self.options
-        self._channel = Channel(options.endpoint, options.timeout, self._heartbeat)
+        self._channel = Channel(options.endpoint, options.timeout, self._heartbeat, self._keys)
         atexit.register(self.abort, "the client's program has ended")
         self._advance("greeting")
         envelope = Envelope()
@@ -71,6 +77,7 @@ class Client:
         hello.wants.extend(self._wants)
         hello.schedule = SCHEDULES.get(options.schedule or "", 0)
         hello.timeout = options.timeout
+        hello.iterates = options.iterates
         self._record.stamp(hello)
         self._sent_at = time.monotonic()
         self._send(envelope)
@@ -100,39 +107,22 @@ class Client:
 
     def begin_step(self, step: Step, fluid: FluidFields, monitors: Sequence[Monitor] = ()) -> SolidFields:
         """The solid that the fluid step must use."""
-        entered = time.monotonic()
         self._require("begin_step")
-        envelope, frames = Envelope(step=step.number), []
-        state = envelope.fluid_state
-        state.step.number, state.step.time, state.step.dt = step.number, step.time, step.dt
-        for monitor in monitors:
-            if not math.isfinite(monitor.value):
-                raise messages.user_fault(f'monitor "{monitor.name}" is {monitor.value} (it must be finite)')
-            state.monitors.add(name=monitor.name, value=monitor.value, unit=monitor.unit)
-        state.previous.compute, state.previous.output = self._previous.compute, self._previous.output
-        state.exchange, state.waiting = self.exchange_times.exchange, self.exchange_times.waiting
-        self._record.put_into(state.previous_times)
-        needs = {name: FLUID_FIELDS[name] for name in FLUID_FIELDS if name in self.welcome.needs}
-        messages.add_fields(envelope, frames, fluid, needs, self._cell_count)
-        self._step = step.number
-        self._advance("waiting" if self._is_serial() else "overlapping")
-        self._send(envelope, frames)
-        self._sent_at = sent = time.monotonic()
-        self._record.begun(step.number, entered)
-        if self._is_serial():
-            busy, arrival = self._take_solid()
-            self._advance("solving")
-            waiting = self._count(entered, busy)
-            self._record.resumed(time.monotonic(), waiting, 0.5 * (sent + arrival))
-        else:
-            self._record.resumed(sent)
+        self._send_fluid(step, 0, self._residual, fluid, monitors)
         return self.solid
 
-    def end_step(self, timings: Timings = Timings()) -> None:
+    def iterate_step(self, estimate: FluidFields, residual: float = 0.0) -> SolidFields:
+        """Schedule iterated: the server goes back to the beginning of the step and repeats it in this estimate of the
+        fluid at its end. residual: relative, of the pass that is given up."""
+        self._require("iterate_step")
+        self._send_fluid(self._step, self._pass + 1, residual, estimate, ())
+        return self.solid
+
+    def end_step(self, timings: Timings = Timings(), residual: float = 0.0) -> None:
         entered = time.monotonic()
         self._require("end_step")
-        self._previous, waiting = timings, 0.0
-        if not self._is_serial():
+        self._previous, self._residual, waiting = timings, residual, 0.0
+        if self._overlaps():
             busy, arrival = self._take_solid()
             # What the server computed before we came to wait cost us nothing.
             waiting = self._count(entered, min(busy, max(0.0, arrival - entered)))
@@ -161,8 +151,41 @@ class Client:
 
     # ------------------------------------------------------------------------------------------------------------------
 
-    def _is_serial(self) -> bool:
-        return self.welcome is not None and self.welcome.schedule == "serial"
+    def _overlaps(self) -> bool:
+        return self.welcome.schedule == "overlapped"
+
+    def _send_fluid(self, step: Step, number: int, residual: float, fluid: FluidFields,
+                    monitors: Sequence[Monitor]) -> None:
+        """One pass of a step; unless both compute at once, takes its answer."""
+        entered = time.monotonic()
+        envelope, frames = Envelope(step=step.number, iteration=number), []
+        state = envelope.fluid_state
+        state.step.number, state.step.time, state.step.dt = step.number, step.time, step.dt
+        if number > 0:
+            state.rewind.residual = residual
+        else:
+            state.residual = residual
+        for monitor in monitors:
+            if not math.isfinite(monitor.value):
+                raise messages.user_fault(f'monitor "{monitor.name}" is {monitor.value} (it must be finite)')
+            state.monitors.add(name=monitor.name, value=monitor.value, unit=monitor.unit)
+        state.previous.compute, state.previous.output = self._previous.compute, self._previous.output
+        state.exchange, state.waiting = self.exchange_times.exchange, self.exchange_times.waiting
+        self._record.put_into(state.previous_times)
+        needs = {name: FLUID_FIELDS[name] for name in FLUID_FIELDS if name in self.welcome.needs}
+        messages.add_fields(envelope, frames, fluid, needs, self._cell_count)
+        self._step, self._pass = step, number
+        meanwhile, after = STEPPING[self.welcome.schedule]
+        self._advance(meanwhile)
+        self._send(envelope, frames)
+        self._sent_at = sent = time.monotonic()
+        self._record.begun(step.number, entered)
+        if self._overlaps():
+            return self._record.resumed(sent)
+        busy, arrival = self._take_solid()
+        self._advance(after)
+        waiting = self._count(entered, busy)
+        self._record.resumed(time.monotonic(), waiting, 0.5 * (sent + arrival))
 
     def _read_welcome(self, told: Any) -> Welcome:
         schedules = {number: name for name, number in SCHEDULES.items()}
@@ -170,14 +193,17 @@ class Client:
         if told.schedule not in schedules or unknown or not math.isfinite(told.end_time):
             self._fail(Fault.PROTOCOL, f"Welcome: schedule {told.schedule}, end time {told.end_time}, unknown fields "
                        f"{unknown}; the two programs do not fit together, see docs/protocol.md")
-        return Welcome(told.server, told.title, schedules[told.schedule], told.end_time, list(told.needs))
+        how = told.iteration
+        iteration = Iteration(how.tolerance, how.max_passes, how.relaxation, how.must_converge)
+        return Welcome(told.server, told.title, schedules[told.schedule], told.end_time, list(told.needs),
+                       max(1, told.fluid_steps), iteration if schedules[told.schedule] == "iterated" else None)
 
     def _take_solid(self) -> tuple[float, float]:
         """Receives the solid of the current step; returns how long the server was busy [s], and when it arrived."""
         envelope, frames, arrival = self._receive("solid_state")
         try:
-            if envelope.step != self._step:
-                raise ValueError(f"it answers step {envelope.step} instead of {self._step}")
+            if (envelope.step, envelope.iteration) != (self._step.number, self._pass):
+                raise ValueError(f"it answers step {envelope.step}, pass {envelope.iteration}")
             self.solid = SolidFields(**messages.read_fields(envelope, frames, self._wants, self._cell_count))
         except ValueError as error:
             self._fail(Fault.PROTOCOL, f"SolidState from {self._peer()} is unusable: {error} ({self._here()}); the two "
@@ -247,14 +273,14 @@ class Client:
             self._channel.send([self._error_frame(reason, fault)])
 
     def _error_frame(self, reason: str, fault: Fault = Fault.USER) -> bytes:
-        envelope = Envelope(step=self._step)
+        envelope = Envelope(step=self._step.number)
         envelope.error.fault = fault.value
         envelope.error.reason = reason[:8192]
         envelope.error.state, envelope.error.name = self._state, self.options.name
         return self._stamped(envelope)
 
     def _heartbeat(self) -> bytes:
-        envelope = Envelope(step=self._step)
+        envelope = Envelope(step=self._step.number)
         beat = envelope.heartbeat
         beat.state, beat.progress, beat.timeout = self._state, self._progress, self.options.timeout
         beat.name = self.options.name
@@ -266,7 +292,7 @@ class Client:
     def _stamped(self, envelope: Envelope) -> bytes:
         envelope.protocol_major, envelope.protocol_minor = MAJOR, MINOR
         envelope.session = self._session
-        envelope.step = envelope.step or self._step
+        envelope.step = envelope.step or self._step.number
         return envelope.SerializeToString()
 
     def _require(self, call: str) -> None:
@@ -290,7 +316,7 @@ class Client:
             atexit.unregister(self.abort)
 
     def _here(self) -> str:
-        return f"in state {self._state}, step {self._step}"
+        return f"in state {self._state}, step {self._step.number}"
 
     def _us(self) -> str:
         return f'client "{self.options.name}"'

@@ -13,6 +13,7 @@ from .types import PATCH_KINDS, ClientOptions, Mesh
 from .wire import F64, I32, MAJOR, Envelope
 
 LOOPBACK = re.compile(r"tcp://(127\.\d{1,3}\.\d{1,3}\.\d{1,3}|localhost|\[::1\]):\d{1,5}")
+ANYWHERE = re.compile(r"tcp://[^\s/]+:\d{1,5}")  # with keys
 LONGEST_PATH = 107  # of a socket file
 MIN_TIMEOUT = 0.1  # [s]
 
@@ -23,9 +24,10 @@ def user_fault(text: str) -> CouplingError:
 
 def check_options(options: ClientOptions) -> None:
     endpoint = options.endpoint
-    if not LOOPBACK.fullmatch(endpoint):
+    anywhere = options.keys and ANYWHERE.fullmatch(endpoint)
+    if not LOOPBACK.fullmatch(endpoint) and not anywhere:
         if not endpoint.startswith("ipc://") or not 0 < len(endpoint) - len("ipc://") <= LONGEST_PATH:
-            raise CouplingError(Fault.ENDPOINT, f'endpoint "{endpoint}" is not of this machine, or no endpoint; write '
+            raise CouplingError(Fault.ENDPOINT, f'endpoint "{endpoint}" is no endpoint, or not of this machine (which takes keys); write '
                                 "ipc:///path/of/socket (at most 107 characters) or tcp://127.0.0.1:port")
     if not options.name or len(options.name.encode()) > 256:
         raise user_fault("ClientOptions.name is empty or longer than 256 bytes; give the name of your solver")

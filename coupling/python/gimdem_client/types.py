@@ -7,7 +7,7 @@ from typing import Optional, Sequence
 
 import numpy as np
 
-SCHEDULES = {"serial": 1, "overlapped": 2}  # numbers on the wire
+SCHEDULES = {"serial": 1, "overlapped": 2, "iterated": 3}  # numbers on the wire
 PATCH_KINDS = {"wall": 1, "open": 2, "symmetry": 3, "empty": 4, "cyclic": 5, "processor": 6}
 
 # Components of each field of the cells.
@@ -22,8 +22,10 @@ class ClientOptions:
     timeout: float = 30.0  # a peer silent for this long is dead [s]
     connect_time: float = 60.0  # how long connect() waits for a server to appear [s]
     step_time: float = 3600.0  # longest wait for the answer of a live server [s]
-    schedule: Optional[str] = None  # "serial", "overlapped"; None: the server's case file decides
+    schedule: Optional[str] = None  # "serial", "overlapped", "iterated"; None: the server's case file decides
     wants: Sequence[str] = ("void_fraction", "drag_coefficient", "drag_momentum")  # solid fields to receive
+    iterates: bool = False  # the program calls iterate_step() if the schedule is iterated
+    keys: str = ""  # folder of keys, docs/security.md; empty: none, and this machine only
 
 
 @dataclass
@@ -33,14 +35,26 @@ class FluidProperties:
 
 
 @dataclass
+class Iteration:
+    """How the schedule iterated repeats a step, theory.md (C.15) to (C.18)."""
+
+    tolerance: float  # relative residual at which a step is accepted
+    max_passes: int  # of a step
+    relaxation: float  # factor of the first pass
+    must_converge: bool  # else a step that did not is accepted as it is
+
+
+@dataclass
 class Welcome:
     """The server's answer to Hello."""
 
     server: str
     title: str
-    schedule: str  # "serial" or "overlapped"
+    schedule: str  # of SCHEDULES
     end_time: float  # [s]
     needs: list[str] = field(default_factory=list)  # fluid fields that this scene needs
+    fluid_steps: int = 1  # equal fluid steps that a coupling step should have
+    iteration: Optional[Iteration] = None  # of schedule iterated
 
 
 @dataclass

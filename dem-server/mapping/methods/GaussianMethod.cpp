@@ -33,7 +33,7 @@ void GaussianMethod::compute_weights(WeightTask const& task)
                                                       mesh_.view().cell, task.rows, source, task.weights});
     };
     if (tables_.provide(task.particles))
-        compute.operator()<TabulatedIntegrals>(tables_.view());
+        compute.operator()<TabulatedIntegrals>({tables_.view(), tables_.curves().view().data});
     else if (curves_.provide(task))
         exec::for_each_uneven(task.execution, task.occupied.size(),
                               CurveKernel{task.occupied.view().data,

@@ -30,7 +30,13 @@ void measure(std::string const& name, SpeedScene const& scene, SpeedOptions cons
     double const bytes = static_cast<double>(memory_in_use() - before) / n;
     double const row = static_cast<double>(mapper.weights().size()) / n;
 
-    double const locate = least_seconds(options, [&] { mapper.locate(scene.particles, wall_faces); });
+    // All are looked for, as if all had moved far enough for that.
+    auto const locate_all = [&]
+    {
+        mapper.take_cells(scene.cells);
+        mapper.locate(scene.particles, wall_faces);
+    };
+    double const locate = least_seconds(options, locate_all);
     double const weights = least_seconds(options, [&] { mapper.compute_weights(scene.particles); });
     double const summing = least_seconds(options, [&] { mapper.sum_into_cells(scene.particles, impulses, sums); });
     fmt::print("{},{},{:.4g},{},{},{:.5g},{:.5g},{:.5g},{:.5g},{:.4g},{:.5g}\n", name, scene.mesh.cell_count(),

@@ -77,8 +77,8 @@ def believe_any_version():
 
 
 def beat_no_heart():
-    changed(channel.Channel, "_connect", lambda connect, self, endpoint: setattr(self, "_interval", 1000) or
-            connect(self, endpoint))
+    changed(channel.Channel, "_connect", lambda connect, self, *arguments: setattr(self, "_interval", 1000)
+            or connect(self, *arguments))
     changed(channel.Channel, "_take", lambda take, self, frames: take(self, frames) or setattr(self, "_interval", 1000))
 
 

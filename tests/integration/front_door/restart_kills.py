@@ -123,19 +123,20 @@ def kill(process: subprocess.Popen[bytes], case: Path, victim: str) -> None:
         pass
 
 
-def wait_for_coupling(process: subprocess.Popen[bytes], case: Path) -> None:
-    while process.poll() is None and not any((run / "bed.csv").exists() for run in (case / "runs").glob("*")):
+def coupled_runs(case: Path) -> int:
+    return len(list((case / "runs").glob("*/bed.csv")))
+
+
+def wait_for_coupling(process: subprocess.Popen[bytes], case: Path, runs_before: int = 0) -> None:
+    while process.poll() is None and coupled_runs(case) <= runs_before:
         time.sleep(0.01)
 
 
-def cut(case: Path, options: list[str], delay: float, victim: str, choose: random.Random) -> str:
+def cut(case: Path, options: list[str], delay: float, victim: str) -> str:
     """Run, and kill after so many seconds of coupling. Returns what was killed, or that nothing was."""
-    runs_before = len(list((case / "runs").glob("*")))
+    runs_before = coupled_runs(case)
     process = start(case, *options)
-    while process.poll() is None and len(list((case / "runs").glob("*/bed.csv"))) <= runs_before:
-        time.sleep(0.01)
-        if choose.random() < 0.001:
-            break  # before the first step
+    wait_for_coupling(process, case, runs_before)
     try:
         process.wait(delay)
         return "nothing"
@@ -165,7 +166,7 @@ def one_moment(folder: Path, kind: Kind, whole: dict[str, bytes], seconds: float
     for _ in range(choose.choice((1, 1, 1, 2))):
         victim = choose.choice(("gimdem-server", "gimdemFoam", "gimdem"))
         delay = choose.uniform(0, seconds)
-        story.append(f"{cut(case, options, delay, victim, choose)} after {delay:.2f} s")
+        story.append(f"{cut(case, options, delay, victim)} after {delay:.2f} s")
         options = ["--restart", "latest"]
     finish(case)
     ends = [end_of(run) for run in sorted((case / "runs").iterdir()) if any(run.glob(f"*/{RECORD}"))]
@@ -179,6 +180,7 @@ def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--moments", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--verbose", action="store_true", help="as every test here; it always tells what it does")
     options = parser.parse_args()
     choose = random.Random(options.seed)
     equal = 0

@@ -55,7 +55,7 @@ class Clients(FrontDoorTest):
         with (folder / "log.server").open("w") as log:
             server = subprocess.Popen([str(word) for word in command], stdout=log, stderr=log)
         try:
-            client = subprocess.run(find_client(name).start_command(folder, endpoint), capture_output=True, text=True,
+            client = subprocess.run(find_client(name).start_command(folder, endpoint, ""), capture_output=True, text=True,
                                     timeout=200)
             self.assertEqual(client.returncode, 0, client.stderr)
             self.assertEqual(server.wait(60), 0, (folder / "log.server").read_text())

@@ -35,7 +35,7 @@ class ShortRuns(RealCaseTest):
         for name, value in figures.items():
             self.assertIsNotNone(value, f"{name} is not finite")
             self.assertIn(f"figure: {name} = ", out)
-        for name in ("results.pvd", "bed.csv", "plots/snapshots.png", "plots/pressure_drop.png", "run.json"):
+        for name in ("results.pvd", "bed.csv", "coupling.csv", "plots/snapshots.png", "plots/pressure_drop.png", "run.json"):
             self.assertTrue((self.run_folder / name).exists(), name)
         self.assertEqual(json.loads((self.run_folder / "run.json").read_text())["settings"]["schedule"], schedule)
         after = {name: content for name, content in tree_of(self.case).items() if name in self.before}
@@ -46,6 +46,13 @@ class ShortRuns(RealCaseTest):
 
     def test_twenty_steps_overlapped(self) -> None:
         self.check("overlapped")
+
+    def test_twenty_steps_iterated(self) -> None:
+        self.check("iterated")
+        figures = self.figures(self.run_folder)
+        self.assertGreater(figures["passes_per_step"], 1)
+        self.assertLessEqual(figures["residual_worst"], 1e-4)
+        self.assertNotIn("did not agree", (self.run_folder / "log.gimdemFoam").read_text())
 
     def test_on_polyhedra(self) -> None:
         self.check("serial", "--grid", "E")

@@ -55,8 +55,9 @@ struct Status
     ClockOffset clock{0, not_known};    ///< of client and server
 };
 
-/// Asks the server at that endpoint. CouplingError: endpoint (nobody listens there), protocol (not a gimdem server),
-/// version, or timeout (no answer within so many seconds).
-Status query_status(std::string const& endpoint, double timeout);
+/// Asks the server at that endpoint. keys: folder of keys of a client, gimdem/coupling/Keys.hpp, for a server that has
+/// some. CouplingError: endpoint (nobody listens there), protocol (not a gimdem server), user (it does not let our key
+/// in), version, or timeout (no answer within so many seconds).
+Status query_status(std::string const& endpoint, double timeout, std::string const& keys = "");
 
 }  // namespace gimdem::coupling

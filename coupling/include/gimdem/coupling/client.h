@@ -65,7 +65,8 @@ extern "C"
     {
         GIMDEM_SCHEDULE_OF_SERVER = 0, /* as the server's case file says */
         GIMDEM_SCHEDULE_SERIAL = 1,
-        GIMDEM_SCHEDULE_OVERLAPPED = 2
+        GIMDEM_SCHEDULE_OVERLAPPED = 2,
+        GIMDEM_SCHEDULE_ITERATED = 3 /* as serial, and gimdem_client_iterate_step() repeats the step */
     };
 
     /* What a boundary patch of the mesh is to the particles. */
@@ -92,8 +93,14 @@ extern "C"
         double step_time;         /* longest wait for the answer of a live server, 0: 3600 [s] */
         char const* const* wants; /* names of solid fields; NULL: void_fraction, drag_coefficient, drag_momentum */
         size_t want_count;
+        char const* keys;         /* folder of keys, docs/security.md; NULL: none, and this machine only */
+        uint64_t run;             /* where rank_count > 1: a random number, not 0, that rank 0 tells the others */
         int32_t schedule;         /* GIMDEM_SCHEDULE_... */
         int32_t no_shared_memory; /* 1: plain frames over ipc too */
+        int32_t iterates;         /* 1: the program calls iterate_step if the schedule is iterated */
+        int32_t rank;             /* of this process among those that solve the fluid together (MPI) */
+        int32_t rank_count;       /* 0, 1: this process alone */
+        int32_t reserved;
     } gimdem_client_options;
 
     /* Constant properties of the fluid. */
@@ -113,8 +120,14 @@ extern "C"
         double end_time;          /* the run ends here [s] */
         char const* const* needs; /* fluid fields that this scene needs */
         size_t need_count;
-        int32_t schedule; /* in force: serial or overlapped */
-        int32_t reserved;
+        char const* const* rank_endpoints; /* to rank 0 of several: where ranks 1, 2, ... connect */
+        size_t rank_endpoint_count;
+        double tolerance;      /* schedule iterated: relative residual at which a step is accepted */
+        double relaxation;     /* schedule iterated: factor of the first pass */
+        int32_t max_passes;    /* schedule iterated: of a step */
+        int32_t must_converge; /* schedule iterated: 0: a step that did not is accepted as it is */
+        int32_t schedule;      /* in force */
+        int32_t fluid_steps;   /* equal fluid steps that a coupling step should have */
     } gimdem_welcome;
 
     /* One boundary patch: a run of boundary faces. */
@@ -124,7 +137,7 @@ extern "C"
         int32_t kind;       /* GIMDEM_PATCH_... */
         int32_t start_face; /* first face, not less than internal_face_count */
         int32_t face_count;
-        int32_t reserved;
+        int32_t neighbour_rank; /* of a processor patch: the rank that has the cells behind it */
     } gimdem_patch;
 
     /* A polyhedral mesh in OpenFOAM's addressing: internal faces first, the normal of a face leaves its owner. */
@@ -188,12 +201,13 @@ extern "C"
         double value;
     } gimdem_monitor;
 
-    /* Where the fluid step spent its wall time. */
+    /* Where the fluid step spent its wall time, and how well an iterated one converged. */
     typedef struct gimdem_timings
     {
         size_t struct_size;
-        double compute; /* [s] */
-        double output;  /* [s] */
+        double compute;  /* [s] */
+        double output;   /* [s] */
+        double residual; /* schedule iterated: relative, of the last pass */
     } gimdem_timings;
 
     /* What the client measured of the coupling, summed over the run. */
@@ -230,6 +244,13 @@ extern "C"
                                                              gimdem_fluid_fields const* fluid,
                                                              gimdem_monitor const* monitors, size_t monitor_count,
                                                              gimdem_solid_fields* solid);
+
+    /* Schedule iterated: the server goes back to the beginning of the step and repeats it in this estimate of the
+     * fluid at its end; *solid is what the fluid step, from its own state at t, must use. residual: relative, of the
+     * pass before. */
+    GIMDEM_CLIENT_API gimdem_status gimdem_client_iterate_step(gimdem_client* client,
+                                                               gimdem_fluid_fields const* estimate, double residual,
+                                                               gimdem_solid_fields* solid);
 
     /* After the fluid step. timings may be NULL. */
     GIMDEM_CLIENT_API gimdem_status gimdem_client_end_step(gimdem_client* client, gimdem_timings const* timings);

@@ -5,6 +5,7 @@
  * Usage: statuses                              the mistakes of a program, without a server
  *        statuses no-memory                    a failure inside the library
  *        statuses <endpoint> <status>          a session, of which the first failure must have that status
+ *        statuses <endpoint> iterated          a session whose steps are made twice
  */
 #if defined(__linux__) && !defined(_DEFAULT_SOURCE)
 #define _DEFAULT_SOURCE /* setrlimit */
@@ -224,7 +225,7 @@ static gimdem_status session(gimdem_client* client)
 {
     const gimdem_fluid_properties properties = {sizeof properties, 1.2, 1.8e-5};
     const gimdem_monitor monitor = {"steps", "1", 1};
-    const gimdem_timings timings = {sizeof timings, 0.1, 0};
+    const gimdem_timings timings = {sizeof timings, 0.1, 0, 0};
     const gimdem_fluid_fields fluid = rest();
     const gimdem_mesh mesh = cube();
     gimdem_welcome welcome = {0};
@@ -248,6 +249,40 @@ static gimdem_status session(gimdem_client* client)
     return gimdem_client_finish(client, "all steps done");
 }
 
+/* Every step is repeated once. */
+static void check_iterated(const char* endpoint)
+{
+    const gimdem_fluid_properties properties = {sizeof properties, 1.2, 1.8e-5};
+    const gimdem_step step = {sizeof step, 1, 0, 1e-3};
+    const gimdem_fluid_fields fluid = rest();
+    const gimdem_mesh mesh = cube();
+    gimdem_client_options options;
+    gimdem_welcome welcome = {0};
+    gimdem_solid_fields solid = {0};
+    gimdem_timings timings = {0};
+    gimdem_client* client = NULL;
+    welcome.struct_size = sizeof welcome;
+    solid.struct_size = sizeof solid;
+    timings.struct_size = sizeof timings;
+    timings.residual = 1e-5;
+    gimdem_client_options_init(&options, sizeof options);
+    options.endpoint = endpoint;
+    options.name = "statuses";
+    options.iterates = 1;
+    EXPECT(gimdem_client_create(&options, &client) == GIMDEM_OK);
+    EXPECT(gimdem_client_connect(client, &properties, &welcome) == GIMDEM_OK);
+    EXPECT(welcome.schedule == GIMDEM_SCHEDULE_ITERATED && welcome.max_passes > 1 && welcome.tolerance > 0);
+    EXPECT(welcome.fluid_steps == 1 && welcome.rank_endpoint_count == 0);
+    EXPECT(gimdem_client_send_mesh(client, &mesh) == GIMDEM_OK);
+    EXPECT_ERROR(gimdem_client_iterate_step(client, &fluid, 0.1, &solid), GIMDEM_ERROR_USER, "illegal");
+    EXPECT(gimdem_client_begin_step(client, &step, &fluid, NULL, 0, &solid) == GIMDEM_OK);
+    EXPECT(gimdem_client_iterate_step(client, &fluid, 0.1, &solid) == GIMDEM_OK);
+    EXPECT(solid.cell_count == 1 && solid.drag_momentum[2] == 2.5);
+    EXPECT(gimdem_client_end_step(client, &timings) == GIMDEM_OK);
+    EXPECT(gimdem_client_finish(client, "done") == GIMDEM_OK);
+    gimdem_client_destroy(client);
+}
+
 int main(int argc, char** argv)
 {
     if (argc == 1)
@@ -258,6 +293,8 @@ int main(int argc, char** argv)
     }
     else if (argc == 2)
         check_no_memory();
+    else if (strcmp(argv[2], "iterated") == 0)
+        check_iterated(argv[1]);
     else
     {
         gimdem_client* client = make_client(argv[1]);

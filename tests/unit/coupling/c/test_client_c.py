@@ -46,7 +46,7 @@ class ClientInC(unittest.TestCase):
             self.skipTest("the address sanitizer needs more memory than the limit allows")
         self.run_program(self.statuses, "no-memory")
 
-    def session(self, status: int, *options: str) -> str:
+    def session(self, status: int | str, *options: str) -> str:
         """One session against a mock server."""
         endpoint = f"ipc://{self.folder}/socket"
         server = subprocess.Popen([str(self.build / "bin" / "gimdem-mock-server"), "--endpoint", endpoint, *options],
@@ -69,6 +69,9 @@ class ClientInC(unittest.TestCase):
             with self.subTest(misbehaviour):
                 self.assertIn(words, self.session(STATUSES[name], "--misbehave", misbehaviour))
 
+    def test_iterated_session(self) -> None:
+        self.session("iterated", "--schedule", "iterated")
+
     def test_no_server(self) -> None:
         told = self.run_program(self.statuses, f"ipc://{self.folder}/nobody", STATUSES["ENDPOINT"])
         self.assertIn("no server has answered", told)
@@ -86,7 +89,7 @@ class ClientInC(unittest.TestCase):
         library = next(self.folder.rglob("libgimdem_client.so"))
         told = subprocess.run([str(self.folder / "column")], env={"LD_LIBRARY_PATH": str(library.parent)},
                               capture_output=True, text=True)
-        self.assertEqual((told.returncode, told.stderr), (2, "usage: column-c <endpoint> <run folder>\n"))
+        self.assertEqual((told.returncode, told.stderr), (2, "usage: column-c <endpoint> <run folder> [folder of keys]\n"))
 
 
 if __name__ == "__main__":

@@ -73,10 +73,17 @@ TEST(RoundTrip, HelloWithoutASchedule)
 
 TEST(RoundTrip, WhoIteratesAndHow)
 {
-    EXPECT_TRUE(unpack_hello(over_the_wire(pack(Hello{"a client", {}, {}, Schedule::iterated, 1, true}))).iterates);
+    EXPECT_TRUE(unpack_hello(over_the_wire(pack(Hello{
+                                 .name = "a client", .schedule = Schedule::iterated, .timeout = 1, .iterates = true})))
+                    .iterates);
     EXPECT_FALSE(unpack_hello(over_the_wire(pack(Hello{"a client", {}, {}, std::nullopt, 1}))).iterates);
 
-    Welcome const sent{"a server", "a title", Schedule::iterated, 0.1, {}, 4, {1e-5, 7, 0.25, true}};
+    Welcome const sent{.server = "a server",
+                       .title = "a title",
+                       .schedule = Schedule::iterated,
+                       .end_time = 0.1,
+                       .fluid_steps = 4,
+                       .iteration = {1e-5, 7, 0.25, true}};
     Welcome const got = unpack_welcome(over_the_wire(pack(sent)));
     EXPECT_EQ(got.schedule, Schedule::iterated);
     EXPECT_EQ(got.fluid_steps, 4);

@@ -100,6 +100,45 @@ class ClientInPython(unittest.TestCase):
         client.finish("done")
         self.assertGreater(client.exchange_times.bytes, 0)
 
+    def test_iterated_session(self) -> None:
+        server = self.start_server("--schedule", "iterated", "--until", "0.002")
+        client = self.client(iterates=True)
+        welcome = client.connect(AIR)
+        self.assertEqual(welcome.schedule, "iterated")
+        self.assertGreater(welcome.iteration.max_passes, 1)
+        client.send_mesh(CUBE)
+        for number in (1, 2):
+            client.begin_step(Step(number, 1e-3 * (number - 1), 1e-3), fluid())
+            solid = client.iterate_step(fluid(), 0.1)
+            self.assertEqual(solid.drag_momentum.tolist(), [[0, 0, 2 * (1 + number / 4)]])
+            client.end_step(residual=1e-5)
+        self.fails(Fault.USER, "illegal", client.iterate_step, fluid())
+        client.finish("done")
+        told, _ = server.communicate(timeout=60)
+        self.assertIn("ok\tpasses\t2 steps were repeated 2 times", told)
+
+    def test_with_keys(self) -> None:
+        """Encrypted; a server without keys, and one that has others, do not answer."""
+        keys = [str(self.folder / name) for name in ("keys", "others")]
+        for folder in keys:
+            subprocess.run([str(self.build / "bin" / "gimdem-keys"), folder], check=True, stdout=subprocess.DEVNULL)
+        self.start_server("--keys", keys[0])
+        client = self.client(keys=keys[0])
+        client.connect(AIR)
+        client.send_mesh(CUBE)
+        client.finish("done")
+        self.fails(Fault.ENDPOINT, "tcp://10.0.0.1:5570", Client, ClientOptions("tcp://10.0.0.1:5570", "test"))
+        Client(ClientOptions("tcp://10.0.0.1:5570", "test", keys=keys[0]))
+        self.fails(Fault.USER, "cannot be read", Client, ClientOptions(self.endpoint, "test", keys="nowhere"))
+        (self.folder / "keys" / "client.secret").chmod(0o644)
+        self.fails(Fault.USER, "mode 644", Client, ClientOptions(self.endpoint, "test", keys=keys[0]))
+
+    def test_keys_that_do_not_fit(self) -> None:
+        folder = str(self.folder / "keys")
+        subprocess.run([str(self.build / "bin" / "gimdem-keys"), folder], check=True, stdout=subprocess.DEVNULL)
+        self.start_server()
+        self.fails(Fault.ENDPOINT, "no server has answered", self.client(keys=folder, connect_time=1).connect, AIR)
+
     def test_last_words_reach_the_server(self) -> None:
         for end in ("client.abort('the gas ran out')", "raise ValueError('the gas ran out')",
                     "client.__exit__(None, ValueError('the gas ran out'), None)"):
