@@ -33,9 +33,10 @@ ParticleState checked_particles(Case const& settings, Materials const& materials
 void require_checkpoint_for(coupling::ClientInfo const& client, bool has_checkpoint)
 {
     if (!client.resume || has_checkpoint) return;
-    throw UserError(fmt::format("{} goes on at {:.9g} s from the checkpoint of step {} (this server begins a run); "
-                                "start the server with --restart and that checkpoint",
-                                client.name, client.resume->time, client.resume->step));
+    throw UserError(
+        fmt::format("{} goes on at {:.9g} s from the checkpoint of step {} (this server begins a run); "
+                    "start the server with --restart and that checkpoint",
+                    client.name, client.resume->time, client.resume->step));
 }
 
 /// Steps until the client says goodbye; one that is lost without a word may come back.
@@ -78,7 +79,7 @@ void serve(Reception& reception, CoupledRun& run, std::optional<std::filesystem:
 }  // namespace
 
 void run(Case const& settings, std::filesystem::path const& folder, std::optional<std::filesystem::path> const& restart,
-         double grace_time, output::TraceChoice const& trace)
+         double grace_time, output::TraceChoice const& trace, coupling::Encodings const& encodings)
 {
     refuse_periodic_coupled_run(settings);
     std::filesystem::create_directories(folder);
@@ -86,7 +87,8 @@ void run(Case const& settings, std::filesystem::path const& folder, std::optiona
     Materials const materials(settings);
     ParticleState particles = checked_particles(settings, materials);
     std::unique_ptr<CoupledRun> coupled;
-    Reception reception(settings, folder, events, [&](auto const& request) { return coupled->save(request); });
+    Reception reception(
+        settings, folder, events, [&](auto const& request) { return coupled->save(request); }, encodings);
     events.say(
         "listening",
         fmt::format("{} particles, waiting for a client at {}", particles.count(), reception.server().endpoint()),

@@ -45,10 +45,12 @@ Wire& Wire::of_session()
 void Wire::open(Role role, coupling::transport::ChannelHooks hooks)
 {
     auto coming = std::move(coming_);
+    auto ending = std::move(ending_);
     *this = Wire();
     role_ = role;
     hooks_ = std::move(hooks);
     coming_ = std::move(coming);
+    ending_ = std::move(ending);
     open_ = true;
 }
 
@@ -75,7 +77,10 @@ void Wire::deliver_to_stranger(Frames frames)
 
 void Wire::end(coupling::transport::Ending ending)
 {
-    if (open_) hooks_.ended(std::move(ending));
+    if (open_)
+        hooks_.ended(std::move(ending));
+    else
+        ending_ = std::move(ending);
 }
 
 /// Everything but a right heartbeat, which changes nothing, and what may not open a session.
@@ -114,6 +119,7 @@ void Wire::send(Frames frames)
     sent_.push_back(message.kind());
     if (message.kind() == coupling::message::Kind::kWelcome) session_ = message.envelope.session();
     deliver();
+    if (ending_) hooks_.ended(*std::exchange(ending_, std::nullopt));
 }
 
 }  // namespace gimdem::fuzz

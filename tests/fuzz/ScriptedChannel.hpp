@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "message/Message.hpp"
@@ -23,6 +24,7 @@ public:
     void put(coupling::transport::Frames frames) { coming_.push_back(std::move(frames)); }
     void deliver();
     void deliver_to_stranger(coupling::transport::Frames frames);
+    /// Nothing more will come, at once or, of a session that is not open yet, once it has spoken.
     void end(coupling::transport::Ending ending);
     bool is_open() const { return open_; }
 
@@ -49,6 +51,7 @@ private:
     std::uint64_t session_ = 0;
     std::size_t delivered_ = 0;
     std::deque<coupling::transport::Frames> coming_;
+    std::optional<coupling::transport::Ending> ending_;
     std::vector<coupling::message::Kind> sent_;
 };
 

@@ -63,7 +63,7 @@ int main(int argc, char** argv)
     double seconds = 0;
     double runs = 0;
     std::mt19937_64 random(1);
-    for (std::string const word : std::vector<std::string>(argv + 1, argv + argc))
+    for (std::string const& word : std::vector<std::string>(argv + 1, argv + argc))
     {
         if (word.rfind("-max_total_time=", 0) == 0) seconds = value_of(word);
         if (word.rfind("-runs=", 0) == 0) runs = value_of(word);
