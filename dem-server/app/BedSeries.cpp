@@ -87,8 +87,10 @@ void BedSeries::add(coupling::Step const& step, StepReport const& report, double
 // everything else is of this instant. Forces and momentum are upward components.
 std::int64_t BedSeries::rewind(double time)
 {
-    interval_ = {};
-    last_momentum_ = momentum(system_.particles());
+    auto const found = remembered_.find(time);
+    Memory const before = found != remembered_.end() ? found->second : Memory{{}, momentum(system_.particles())};
+    interval_ = before.interval;
+    last_momentum_ = before.last_momentum;
     return series_ ? series_->keep_before(time) : 0;
 }
 

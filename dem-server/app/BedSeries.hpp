@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,6 +30,8 @@ public:
     void write_row(coupling::FluidState const& fluid, CoupledEngine const& engine);
     /// After a step that stands, with its pressure drop [Pa].
     void add(coupling::Step const& step, StepReport const& report, double pressure_drop);
+    /// A checkpoint of this time [s] was written: the run may come back to it.
+    void remember(double time) { remembered_[time] = {interval_, last_momentum_}; }
     /// The run goes on from an earlier time [s], as the particles do. Returns how many rows are left.
     std::int64_t rewind(double time);
     double pressure_drop(coupling::FluidFields const& fluid) const;  ///< [Pa], 0 where it is not asked for
@@ -51,6 +54,13 @@ private:
         std::int64_t clips = 0;
     };
 
+    /// All that the next row needs of the steps before.
+    struct Memory
+    {
+        Interval interval;
+        Vec3 last_momentum = Vec3::Zero();
+    };
+
     bool has_pressure_drop() const { return inlet_ != nullptr && outlet_ != nullptr; }
 
     Case const& settings_;
@@ -62,6 +72,7 @@ private:
     coupling::Patch const* outlet_ = nullptr;
     std::optional<output::TimeSeries> series_;
     Interval interval_;
+    std::map<double, Memory> remembered_;  ///< by time [s]
     Vec3 last_momentum_ = Vec3::Zero();
 };
 

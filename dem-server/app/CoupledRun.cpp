@@ -356,6 +356,7 @@ void CoupledRun::keep()
     MappedState const mapped = engine_.mapped();
     write_checkpoint(checkpoint_file(folder_, at_), settings_, at_, inlets_, system_, engine_.weight_reuse(), &mapped);
     kept_ = at_.step;
+    log_.remember(at_.time);
     if (is_asked_)
         keep_newest_checkpoints(folder_, complete_step_);
     else

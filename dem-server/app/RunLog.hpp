@@ -36,6 +36,8 @@ public:
     /// After a step, which may still be repeated: accept() or the next record() decides.
     void record(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine);
 
+    /// A checkpoint of this time [s] was written.
+    void remember(double time) { series_.remember(time); }
     /// The run goes on from an earlier time [s]: rows and frames from there on are written again.
     void rewind(double time);
     /// The step that was recorded last stands; if there is none, nothing happens.
