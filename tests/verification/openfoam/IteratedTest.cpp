@@ -54,7 +54,11 @@ Outcome relax(FluidCase const& fluid, Schedule schedule, Iteration const& iterat
     process.start("-endpoint " + server.endpoint());
 
     Outcome outcome;
-    ServerTerms terms{"one body", schedule, fluid.end_time, {field::velocity, field::pressure_gradient}};
+    ServerTerms terms;
+    terms.title = "one body";
+    terms.schedule = schedule;
+    terms.end_time = fluid.end_time;
+    terms.needs = {field::velocity, field::pressure_gradient};
     terms.iteration = iteration;
     server.wait_for_client(terms);
     auto const cells = static_cast<std::size_t>(server.receive_mesh().cell_count);
