@@ -98,6 +98,7 @@ private:
     Array<ParticleTotal> totals_;
     Array<FluidLoad> loads_;
     Array<std::int32_t> clips_;
+    std::int64_t clips_before_ = 0;  ///< when there were more or fewer particles
     Array<std::uint8_t> status_;
     exec::DeviceSort<Device> sort_;
     exec::DeviceGroups<Device> by_cell_;

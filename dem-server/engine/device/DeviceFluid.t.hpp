@@ -122,6 +122,7 @@ void DeviceFluid<Device>::apply(DeviceParticles<Device>& particles)
     loads_.resize(device_, n);
     if (clips_.size() != n)
     {
+        clips_before_ = clipped();
         clips_.resize(device_, n);
         clips_.zero(device_);
     }
@@ -143,7 +144,8 @@ Vec3 DeviceFluid<Device>::steady_force()
 template <class Device>
 std::int64_t DeviceFluid<Device>::clipped()
 {
-    return sum_counts_(clips_.size(), EntryOf<std::int64_t, std::int32_t>{clips_.data()}, Add<std::int64_t>{});
+    return clips_before_ +
+           sum_counts_(clips_.size(), EntryOf<std::int64_t, std::int32_t>{clips_.data()}, Add<std::int64_t>{});
 }
 
 template <class Device>

@@ -54,7 +54,11 @@ Outcome relax(FluidCase const& fluid, Schedule schedule, Iteration const& iterat
     process.start("-endpoint " + server.endpoint());
 
     Outcome outcome;
-    ServerTerms terms{"one body", schedule, fluid.end_time, {field::velocity, field::pressure_gradient}};
+    ServerTerms terms;
+    terms.title = "one body";
+    terms.schedule = schedule;
+    terms.end_time = fluid.end_time;
+    terms.needs = {field::velocity};  // no pressure gradient: there is none but noise, which never stands still
     terms.iteration = iteration;
     server.wait_for_client(terms);
     auto const cells = static_cast<std::size_t>(server.receive_mesh().cell_count);
@@ -107,7 +111,7 @@ FluidCase gas()
 TEST(IteratedBodies, KeepTheirMomentumAndFollowTheImplicitSolution)
 {
     FluidCase const fluid = gas();
-    double const tolerance = 1e-8;
+    double const tolerance = 1e-7;
     Outcome const outcome = relax(fluid, Schedule::iterated, {tolerance, 30, 0.5, true});
 
     double const load = solid_density / fluid_density * (1 - kept_slip(fluid.time_step));

@@ -112,11 +112,12 @@ void take(FluidState const& state, Fluid& fluid)
 
 ServerTerms terms_until(double end_time)
 {
-    return {"prescribed",
-            Schedule::serial,
-            end_time,
-            {field::velocity, field::velocity_gradient, field::pressure_gradient, field::void_fraction_gradient,
-             field::pressure}};
+    ServerTerms terms;
+    terms.title = "prescribed";
+    terms.end_time = end_time;
+    terms.needs = {field::velocity, field::velocity_gradient, field::pressure_gradient, field::void_fraction_gradient,
+                   field::pressure};
+    return terms;
 }
 
 Fluid serve(FluidProcess& process, ServerTerms const& terms, Prescription const& prescribe, Observer const& observe);
