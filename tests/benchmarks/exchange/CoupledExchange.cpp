@@ -59,6 +59,11 @@ public:
     {
     }
 
+    ~Coupled() override
+    {
+        if (client_) client_->finish("measured");
+    }
+
     void exchange() override
     {
         if (!client_) connect();

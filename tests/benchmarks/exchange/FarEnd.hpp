@@ -34,6 +34,7 @@ public:
         if (length <= 0) throw std::runtime_error("the second process ended at once");
         endpoint_.assign(text.data(), static_cast<std::size_t>(length));
     }
+    /// It ends now if it has not done so by itself.
     ~FarEnd()
     {
         ::kill(id_, SIGTERM);
