@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import bench_dem
+import bench_exchange
 import bench_faults
 import bench_gim
 import bench_mapping
@@ -43,7 +44,7 @@ def parser() -> argparse.ArgumentParser:
     add("test", run_tests, f"build everything and run the tests, except {SKIPPED_LABELS}; further options go to ctest")
     bench = add("bench", run_benchmarks, "run the benchmarks")
     bench.add_argument("name", nargs="?",
-                       help="dem, mapping, noise, overlap, faults, gim-figures (the figures of the method's paper), or a part of a program's name")
+                       help="dem, mapping, noise, overlap, faults, exchange, gim-figures (the figures of the method's paper), or a part of a program's name")
     bench_dem.add_options(bench)
     bench_mapping.add_options(bench)
     bench_noise.add_options(bench)
@@ -85,6 +86,8 @@ def run_benchmarks(options: argparse.Namespace) -> int:
         return bench_mapping.run(options, parts_of(options, bench_mapping.PARTS))
     if options.name == "noise":
         return bench_noise.run(options)
+    if options.name == "exchange":
+        return bench_exchange.run(options)
     if options.name == "overlap":
         return bench_overlap.run(options)
     if options.name == "faults":

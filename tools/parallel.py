@@ -2,6 +2,7 @@
 """A fluid that several processes solve: cut the case, start the processes, put the results together."""
 from __future__ import annotations
 
+import hashlib
 import re
 import shutil
 import tempfile
@@ -12,6 +13,7 @@ import openfoam
 from case_folder import CaseDescription
 from console import UserError, shown
 from process import run_logged
+from restart import CHECKPOINT, RECORD, STEP, Restart
 
 MOST = 32  # max_ranks of gimdem/coupling/Types.hpp
 DICTIONARY = "system/decomposeParDict"
@@ -45,8 +47,8 @@ def check(ranks: int, client: str) -> None:
         raise UserError("mpirun is not on the PATH (it starts the ranks); run ./gimdem setup, or leave out --ranks")
 
 
-def decompose(folder: Path, ranks: int) -> str:
-    """Cut mesh and fields of a run; returns one line about it."""
+def decompose(folder: Path, ranks: int, restart: Restart | None) -> str:
+    """Cut mesh and fields of a run, those that it begins with; returns one line about it."""
     dictionary = folder / DICTIONARY
     how = f"as {DICTIONARY} says"
     if not dictionary.exists():
@@ -55,7 +57,15 @@ def decompose(folder: Path, ranks: int) -> str:
         how = " x ".join(map(str, counts))
     with dictionary.open("a") as text:
         text.write(f"\nnumberOfSubdomains {ranks}; // --ranks: the last entry counts\n")
-    tool("decomposePar", [], folder)
+    # Fields go through text twice, and a restart must find every digit.
+    with (folder / "system" / "controlDict").open("a") as text:
+        text.write("\nwritePrecision 17; // --ranks: the last entry counts\n")
+    if restart and restart.fluid:
+        tool("decomposePar", ["-time", restart.fluid.name, "-copyUniform"], folder)
+        for part in processors(folder):
+            list_files(part / restart.fluid.name)
+    else:
+        tool("decomposePar", [], folder)
     return f"the mesh is cut for {ranks} ranks, {how}"
 
 
@@ -91,10 +101,34 @@ def reconstruct(folder: Path, keep: bool = False) -> str:
     times = whole_times(parts)
     if times:
         tool("reconstructPar", ["-time", ",".join(times)], folder)
+    for time in times:
+        join_records([part / time for part in parts], folder / time)
     if not keep:
         for part in parts:
             shutil.rmtree(part)
     return f"{len(times)} times of {len(parts)} ranks put together"
+
+
+def join_records(parts: Sequence[Path], whole: Path) -> None:
+    """Of a time that is put together: it belongs to a checkpoint if all its parts belong to the same."""
+    records = [(part / RECORD).read_text() if (part / RECORD).is_file() else "" for part in parts]
+    told = {(STEP.search(record) or [""])[0] + (CHECKPOINT.search(record) or [""])[0] for record in records}
+    if len(told) == 1 and all(records):
+        list_files(whole)
+    else:
+        (whole / RECORD).unlink(missing_ok=True)
+
+
+def list_files(time: Path) -> None:
+    """Have the record of a time list the files that are there now, with size and checksum."""
+    record = time / RECORD
+    files = [file for file in sorted(time.rglob("*")) if file.is_file() and file != record]
+    lines = [f'("{file.relative_to(time)}" "{file.stat().st_size}" "{hashlib.sha1(file.read_bytes()).hexdigest()}")'
+             for file in files]
+    text = record.read_text()
+    part = record.with_suffix(".part")
+    part.write_text(text[:text.index("files")] + "files (\n" + "\n".join(lines) + "\n);\n")
+    part.replace(record)
 
 
 def reconstruct_before_restart(case: CaseDescription, wanted: str | None) -> None:

@@ -202,7 +202,7 @@ def run_in_folder(case: CaseDescription, client: Program | None, options: argpar
     if client:
         say("mesh", client.make_mesh(case, run.folder))
     if run.ranks > 1:
-        say("ranks", parallel.decompose(run.folder, run.ranks))
+        say("ranks", parallel.decompose(run.folder, run.ranks, restart))
     record = RunRecord(run.folder, run.settings())
     start = time.monotonic()
     outcome = run.carry_out()

@@ -86,6 +86,11 @@ ClientOptions options_of(gimdem_client_options const& given)
     options.iterates = given.iterates != 0;
     options.rank = {given.rank, given.rank_count == 0 ? 1 : given.rank_count, given.run};
     options.keys = text(given.keys);
+    if (given.resume != nullptr)
+    {
+        auto const resume = read(given.resume, "gimdem_resume_point");
+        options.resume = ResumePoint{resume.session, resume.step, resume.time};
+    }
     for (char const* name : array(given.wants, given.want_count, "gimdem_client_options.wants"))
         options.wants.push_back(text(name));
     return options;

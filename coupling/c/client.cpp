@@ -20,6 +20,7 @@ struct gimdem_client
     std::size_t cell_count = 0;
     std::vector<char const*> needs;  ///< texts of client.welcome()
     std::vector<char const*> rank_endpoints;
+    std::string checkpoint;  ///< name of the last one
 };
 
 namespace
@@ -132,6 +133,7 @@ gimdem_welcome plain(Welcome const& welcome, gimdem_client const& handle)
     result.must_converge = welcome.iteration.must_converge ? 1 : 0;
     result.schedule = plain(welcome.schedule);
     result.fluid_steps = welcome.fluid_steps;
+    result.saves_checkpoints = welcome.saves_checkpoints ? 1 : 0;
     return result;
 }
 
@@ -247,6 +249,21 @@ gimdem_status gimdem_client_end_step(gimdem_client* client, gimdem_timings const
             known.compute = given.compute;
             known.output = given.output;
             handle.client.end_step(known, given.residual);
+        });
+}
+
+gimdem_status gimdem_client_save_checkpoint(gimdem_client* client, double time, int64_t complete_step,
+                                            gimdem_saved_checkpoint* saved)
+{
+    return guarded(
+        [&]
+        {
+            gimdem_client& handle = checked(client);
+            c::require_room(saved, "gimdem_saved_checkpoint");
+            SavedCheckpoint const known = handle.client.save_checkpoint(time, complete_step);
+            handle.checkpoint = known.name;
+            c::write(gimdem_saved_checkpoint{0, known.session, known.step, known.time, handle.checkpoint.c_str()},
+                     saved);
         });
 }
 

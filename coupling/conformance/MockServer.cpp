@@ -93,6 +93,7 @@ private:
         terms.schedule = script_.schedule;
         terms.end_time = script_.end_time;
         terms.needs = script_.needs;
+        server_.save_checkpoints_by([this](CheckpointRequest const& request) { return save(request); });
         ClientInfo client = server_.wait_for_client(terms);
         bool const has_fluid = client.fluid.density > 0 && client.fluid.viscosity > 0;
         findings_.check("handshake", has_fluid,
@@ -102,6 +103,16 @@ private:
         if (client.iterates) findings_.tell("iterates", "");
         stage_ = "mesh";
         return client;
+    }
+
+    /// Nothing moves here, so there is nothing to save.
+    SavedCheckpoint save(CheckpointRequest const& request) const
+    {
+        SavedCheckpoint saved;
+        saved.step = steps_;
+        saved.time = request.time;
+        saved.name = "none.h5";
+        return saved;
     }
 
     /// A mesh that a server of particles would refuse is refused here too.

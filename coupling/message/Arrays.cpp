@@ -53,6 +53,7 @@ std::size_t element_size(v1::ElementType type)
         case v1::ELEMENT_TYPE_I64:
             return 8;
         case v1::ELEMENT_TYPE_I32:
+        case v1::ELEMENT_TYPE_F32:
             return 4;
         default:
             return 0;

@@ -51,19 +51,28 @@ void check_array(v1::ArrayHeader const& header, transport::Frame& frame)
     auto const who = [&] { return "array \"" + header.name() + "\""; };
     std::size_t const size = element_size(header.type());
     if (size == 0) refuse(who() + " has an unknown element type");
-    if (!header.dense()) refuse(who() + " is sparse (protocol 1.0 has dense arrays only)");
     if (header.components() < 1 || header.components() > max_components)
         refuse(who() + " has " + std::to_string(header.components()) + " components (1 to " +
                std::to_string(max_components) + ")");
 
     std::size_t const row_bytes = size * header.components();
     bool const fits = header.count() <= transport::max_frame_bytes / row_bytes;
+    if (fits && header.compression() != v1::COMPRESSION_NONE && !header.shared())
+        return;                                            // its bytes are checked where the number of cells is known
     if (fits && header.shared() && frame.empty()) return;  // its place is checked where the memory is known
     if (!fits || header.shared() || header.count() * row_bytes != frame.size())
         refuse(who() + " has " + std::to_string(frame.size()) + " bytes, but its header promises " +
                std::to_string(header.count()) + " rows of " + std::to_string(row_bytes) +
                " bytes (a truncated or padded frame)");
     align(frame, size);
+}
+
+void check_array_of_mesh(v1::ArrayHeader const& header)
+{
+    std::string const who = "array \"" + header.name() + "\" of a Mesh";
+    if (header.shared()) refuse(who + " in shared memory (only fields may lie there)");
+    if (!header.dense() || header.compression() != v1::COMPRESSION_NONE)
+        refuse(who + " is sparse or compressed (only fields may be)");
 }
 
 void check_arrays(Message& message)
@@ -79,8 +88,9 @@ void check_arrays(Message& message)
         auto const is_same = [&](v1::ArrayHeader const& other) { return other.name() == headers[k].name(); };
         if (std::any_of(headers.begin(), headers.begin() + k, is_same))
             refuse("array \"" + headers[k].name() + "\" comes twice");
-        if (headers[k].shared() && message.kind() == Kind::kMesh)
-            refuse("array \"" + headers[k].name() + "\" of a Mesh in shared memory (only fields may lie there)");
+        if (message.kind() == Kind::kMesh) check_array_of_mesh(headers[k]);
+        if (headers[k].shared() && headers[k].compression() != v1::COMPRESSION_NONE)
+            refuse("array \"" + headers[k].name() + "\" is compressed and in shared memory (only frames may be)");
         check_array(headers[k], message.arrays[static_cast<std::size_t>(k)]);
     }
 }

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "message/Arrays.hpp"
+#include "message/Compression.hpp"
 #include "message/Finite.hpp"
+#include "message/Runs.hpp"
 #include "message/SharedArrays.hpp"
 
 namespace gimdem::coupling::message
@@ -78,6 +80,100 @@ void check_size(FieldEntry<Fields> const& entry, Span<double const> values, std:
                                          " (the solution has diverged); try a smaller time step");
 }
 
+/// The cells of a field that travel; none where it travels whole.
+std::optional<CellRuns> cells_to_send(FieldLayout const& layout, std::string const& field, std::size_t cell_count)
+{
+    if (!layout.encodings.sparse) return std::nullopt;
+    CellRuns const* const cells = layout.needed != nullptr ? needed_cells(*layout.needed, field) : layout.solid;
+    if (cells == nullptr) return std::nullopt;
+    auto const most = static_cast<double>(cell_count) * most_sparse;
+    if (static_cast<double>(coupling::cell_count(*cells)) > most) return std::nullopt;
+    return *cells;
+}
+
+bool is_same(std::optional<CellRuns> const& cells, std::optional<CellRuns> const& others)
+{
+    return cells && others &&
+           std::equal(cells->begin(), cells->end(), others->begin(), others->end(),
+                      [](CellRun const& a, CellRun const& b) { return a.first == b.first && a.count == b.count; });
+}
+
+/// Of the next array, whose frame comes then. Runs that the sparse array before it has told are not told again.
+void add_header(Message& message, char const* name, unsigned components, std::optional<CellRuns> const& cells,
+                std::size_t cell_count, Encodings const& encodings)
+{
+    auto const told = std::find_if(message.unfilled.rbegin(), message.unfilled.rend(),
+                                   [](Unfilled const& field) { return field.cells && !field.cells->empty(); });
+    v1::ArrayHeader& header = *message.envelope.add_arrays();
+    header.set_name(name);
+    header.set_type(encodings.float32 ? v1::ELEMENT_TYPE_F32 : v1::ELEMENT_TYPE_F64);
+    header.set_components(components);
+    header.set_count(cells ? coupling::cell_count(*cells) : cell_count);
+    header.set_dense(!cells);
+    if (cells && (told == message.unfilled.rend() || !is_same(cells, told->cells)))
+        pack_runs(*cells, *header.mutable_runs());
+}
+
+std::size_t byte_count(v1::ArrayHeader const& header)
+{
+    return header.count() * header.components() * element_size(header.type());
+}
+
+template <class T>
+bool gather(Unfilled const& field, unsigned components, T* to)
+{
+    bool finite = true;
+    for (CellRun const& run : *field.cells)
+    {
+        std::size_t const size = static_cast<std::size_t>(run.count) * components;
+        finite &= copy_finite({field.values.data() + static_cast<std::size_t>(run.first) * components, size}, to);
+        to += size;
+    }
+    return finite;
+}
+
+/// Copies what travels into the frame. False if a number is NaN or infinite, or too large for a float.
+bool pack_rows(Unfilled const& field, v1::ArrayHeader const& header, transport::Frame& frame)
+{
+    if (header.type() == v1::ELEMENT_TYPE_F32)
+    {
+        auto* const to = static_cast<float*>(frame.data());
+        return field.cells ? gather(field, header.components(), to) : copy_finite(field.values, to);
+    }
+    auto* const to = static_cast<double*>(frame.data());
+    if (field.cells) return gather(field, header.components(), to);
+    return field.is_shared ? stream_finite(field.values, to) : copy_finite(field.values, to);
+}
+
+[[noreturn]] void refuse_own(Unfilled const& field, v1::ArrayHeader const& header)
+{
+    auto const i = first_not_finite(field.values);
+    if (!i)
+        throw CouplingError(Fault::user, "field \"" + header.name() +
+                                             "\" has a number beyond the largest float (3.4e38); do without float32");
+    refuse_divergence(header.name(), header.components(), field.values, *i);
+}
+
+bool is_used_in_place(v1::ArrayHeader const& header)
+{
+    return header.dense() && header.type() != v1::ELEMENT_TYPE_F32 && header.compression() == v1::COMPRESSION_NONE;
+}
+
+int position_of(Message const& message, char const* name, unsigned components)
+{
+    auto const& headers = message.envelope.arrays();
+    auto const who = [&] { return describe(message) + ": array \"" + name + "\""; };
+    auto const found = std::find_if(headers.begin(), headers.end(),
+                                    [&](v1::ArrayHeader const& header) { return header.name() == name; });
+    if (found == headers.end()) refuse(who() + " is missing");
+    if (found->type() != v1::ELEMENT_TYPE_F64 && found->type() != v1::ELEMENT_TYPE_F32)
+        refuse(who() + " has another element type than docs/protocol.md tells");
+    if (found->components() != components)
+        refuse(who() + " has " + std::to_string(found->components()) + " components instead of " +
+               std::to_string(components));
+    return static_cast<int>(found - headers.begin());
+}
+
 }  // namespace
 
 FieldChoice<FluidFields> choose_fluid_fields(std::vector<std::string> const& names, Fault fault)
@@ -94,17 +190,21 @@ FieldChoice<SolidFields> choose_solid_fields(std::vector<std::string> const& nam
 
 template <class Fields>
 void lay_out_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
-                    transport::SendMemory const& memory)
+                    transport::SendMemory const& memory, FieldLayout const& layout)
 {
     memory.begin_message();
     for (auto const& entry : choice)
     {
         Span<double const> const values = fields.*entry.values;
         check_size(entry, values, cell_count);
-        transport::Frame frame = memory.make(values.size() * sizeof(double));
+        auto cells = cells_to_send(layout, entry.name, cell_count);
+        add_header(message, entry.name, entry.components, cells, cell_count, layout.encodings);
+        v1::ArrayHeader const& header = *message.envelope.arrays().rbegin();
+        transport::Frame frame = memory.make(byte_count(header), layout.encodings.sparse);
         auto const offset = memory.offset_of(frame);
-        message.unfilled.push_back({message.arrays.size(), values, offset.has_value()});
-        append_array(message, entry.name, entry.components, std::move(frame));
+        message.unfilled.push_back(
+            {message.arrays.size(), values, offset.has_value(), std::move(cells), layout.encodings.lz4 && !offset});
+        message.arrays.push_back(std::move(frame));
         if (offset) mark_shared(message, *offset);
     }
 }
@@ -124,14 +224,16 @@ void fill(Message& message, std::function<void(std::size_t)> const& filled)
 {
     for (Unfilled const& field : message.unfilled)
     {
-        auto* const to = static_cast<double*>(message.arrays[field.array].data());
-        if (field.is_shared ? stream_finite(field.values, to) : copy_finite(field.values, to))
-        {
-            if (filled) filled(field.array + 1);
-            continue;
-        }
-        v1::ArrayHeader const& header = message.envelope.arrays(static_cast<int>(field.array));
-        refuse_divergence(header.name(), header.components(), field.values, *first_not_finite(field.values));
+        v1::ArrayHeader& header = *message.envelope.mutable_arrays(static_cast<int>(field.array));
+        transport::Frame& frame = message.arrays[field.array];
+        if (!pack_rows(field, header, frame)) refuse_own(field, header);
+        if (field.compress)
+            if (transport::Frame packed = compress(frame, element_size(header.type())); packed.size() > 0)
+            {
+                frame = std::move(packed);
+                header.set_compression(v1::COMPRESSION_SHUFFLED_LZ4);
+            }
+        if (filled) filled(field.array + 1);
     }
     message.unfilled.clear();
 }
@@ -143,25 +245,39 @@ void look_through(Message& message, std::size_t count)
         std::size_t const k = message.finite;
         transport::Frame const& frame = message.arrays[k];
         bool const is_real = message.envelope.arrays(static_cast<int>(k)).type() == v1::ELEMENT_TYPE_F64;
-        if (is_real && !all_finite({static_cast<double const*>(frame.data()), frame.size() / sizeof(double)})) return;
+        bool const is_dense = message.envelope.arrays(static_cast<int>(k)).dense();
+        // What is not used in place is looked at while it is copied.
+        if (is_real && is_dense &&
+            !all_finite({static_cast<double const*>(frame.data()), frame.size() / sizeof(double)}))
+            return;
     }
 }
 
 template <class Fields>
-std::size_t shared_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count)
+std::size_t shared_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count, bool any_size)
 {
-    std::size_t sum = 0;
+    std::size_t large = 0, all = 0;
     for (auto const& entry : choice)
-        sum += transport::shared_bytes(cell_count * entry.components * sizeof(double));
-    return sum;
+    {
+        large += transport::shared_bytes(cell_count * entry.components * sizeof(double));
+        all += transport::aligned_bytes(cell_count * entry.components * sizeof(double));
+    }
+    return any_size && large > 0 ? all : large;
 }
 
 template <class Fields>
-Fields view_fields(Message const& message, FieldChoice<Fields> const& choice, std::size_t cell_count)
+Fields view_fields(Message const& message, FieldChoice<Fields> const& choice, std::size_t cell_count,
+                   FieldStore const& store)
 {
     Fields fields;
     for (auto const& entry : choice)
     {
+        int const k = position_of(message, entry.name, entry.components);
+        if (!is_used_in_place(message.envelope.arrays(k)))
+        {
+            fields.*entry.values = store.receive(message, k, cell_count);
+            continue;
+        }
         Span<double const> const values = view_array<double>(message, entry.name, entry.components, cell_count);
         if (auto const i = is_known_finite(message, values) ? std::nullopt : first_not_finite(values))
             refuse(describe(message) + ": " + not_finite_text(entry.name, entry.components, values, *i));
@@ -172,13 +288,13 @@ Fields view_fields(Message const& message, FieldChoice<Fields> const& choice, st
 }
 
 template void lay_out_fields(Message&, FieldChoice<FluidFields> const&, FluidFields const&, std::size_t,
-                             transport::SendMemory const&);
+                             transport::SendMemory const&, FieldLayout const&);
 template void lay_out_fields(Message&, FieldChoice<SolidFields> const&, SolidFields const&, std::size_t,
-                             transport::SendMemory const&);
+                             transport::SendMemory const&, FieldLayout const&);
 template void check_fields(FieldChoice<SolidFields> const&, SolidFields const&, std::size_t);
-template std::size_t shared_bytes(FieldChoice<FluidFields> const&, std::size_t);
-template std::size_t shared_bytes(FieldChoice<SolidFields> const&, std::size_t);
-template FluidFields view_fields(Message const&, FieldChoice<FluidFields> const&, std::size_t);
-template SolidFields view_fields(Message const&, FieldChoice<SolidFields> const&, std::size_t);
+template std::size_t shared_bytes(FieldChoice<FluidFields> const&, std::size_t, bool);
+template std::size_t shared_bytes(FieldChoice<SolidFields> const&, std::size_t, bool);
+template FluidFields view_fields(Message const&, FieldChoice<FluidFields> const&, std::size_t, FieldStore const&);
+template SolidFields view_fields(Message const&, FieldChoice<SolidFields> const&, std::size_t, FieldStore const&);
 
 }  // namespace gimdem::coupling::message

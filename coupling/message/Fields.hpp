@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gimdem/coupling/Types.hpp"
+#include "message/FieldStore.hpp"
 #include "message/Message.hpp"
 #include "transport/SendMemory.hpp"
 
@@ -45,11 +46,19 @@ using FieldChoice = std::vector<FieldEntry<Fields>>;
 FieldChoice<FluidFields> choose_fluid_fields(std::vector<std::string> const& names, Fault fault);
 FieldChoice<SolidFields> choose_solid_fields(std::vector<std::string> const& names, Fault fault);
 
+/// How the fields of a message are to travel.
+struct FieldLayout
+{
+    Encodings encodings;                               ///< in force
+    std::vector<NeededCells> const* needed = nullptr;  ///< of a fluid, where not all cells are
+    CellRuns const* solid = nullptr;                   ///< of a solid, where not all cells are
+};
+
 /// Adds the chosen fields to a message, in shared memory where the peer reads it, and leaves the copying to fill().
 /// Fault::user if one has not cell_count rows.
 template <class Fields>
 void lay_out_fields(Message& message, FieldChoice<Fields> const& choice, Fields const& fields, std::size_t cell_count,
-                    transport::SendMemory const& memory);
+                    transport::SendMemory const& memory, FieldLayout const& layout = {});
 
 /// Fault::user if one of the chosen fields has not cell_count rows, or has a NaN or infinity in it.
 template <class Fields>
@@ -62,9 +71,10 @@ void fill(Message& message, std::function<void(std::size_t)> const& filled = {})
 /// there are none.
 void look_through(Message& message, std::size_t count);
 
-/// Bytes of shared memory that one message with the chosen fields takes.
+/// Bytes of shared memory that one message with the chosen fields takes. any_size: small ones lie there, too, beside
+/// large ones.
 template <class Fields>
-std::size_t shared_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count);
+std::size_t shared_bytes(FieldChoice<Fields> const& choice, std::size_t cell_count, bool any_size = false);
 
 /// Bytes of the chosen fields.
 template <class Fields>
@@ -76,9 +86,10 @@ std::size_t field_bytes(FieldChoice<Fields> const& choice, std::size_t cell_coun
     return components * cell_count * sizeof(double);
 }
 
-/// The chosen fields, in place; the others are empty. Fault::protocol if the message has others than the chosen ones,
-/// or the wrong sizes, or a NaN or infinity.
+/// The chosen fields, in place, or in the store if they travel in another form than they are used; the others are
+/// empty. Fault::protocol if the message has others than the chosen ones, or the wrong sizes, or a NaN or infinity.
 template <class Fields>
-Fields view_fields(Message const& message, FieldChoice<Fields> const& choice, std::size_t cell_count);
+Fields view_fields(Message const& message, FieldChoice<Fields> const& choice, std::size_t cell_count,
+                   FieldStore const& store = {});
 
 }  // namespace gimdem::coupling::message

@@ -48,6 +48,36 @@ inline bool copy_finite(Span<double const> values, double* to)
     return (bad >> 63) == 0;
 }
 
+/// The same from float to double.
+inline bool copy_finite(Span<float const> values, double* to)
+{
+    std::uint64_t bad = 0;
+    std::size_t const size = values.size();
+    for (std::size_t i = 0; i < size; ++i)
+    {
+        to[i] = static_cast<double>(values[i]);
+        bad |= not_finite(to[i]);
+    }
+    return (bad >> 63) == 0;
+}
+
+/// The same from double to float, rounded to nearest: within 2^-24 of a number's magnitude for 2^-126 and more of it.
+/// False also for a number beyond the largest float.
+inline bool copy_finite(Span<double const> values, float* to)
+{
+    std::uint32_t constexpr exponent = 0x7f80'0000;
+    std::uint32_t bad = 0;
+    std::size_t const size = values.size();
+    for (std::size_t i = 0; i < size; ++i)
+    {
+        to[i] = static_cast<float>(values[i]);
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, &to[i], sizeof(bits));
+        bad |= (bits & exponent) + (std::uint32_t{1} << 23);
+    }
+    return (bad >> 31) == 0;
+}
+
 /// The same past the caches, for memory that another processor reads next and that this one has not seen for a step:
 /// half the time, because what is overwritten is not fetched first. `to` lies at a multiple of 16 bytes.
 inline bool stream_finite(Span<double const> values, double* to)

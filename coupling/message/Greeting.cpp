@@ -42,6 +42,22 @@ std::optional<Schedule> from_wire(v1::Schedule schedule)
     }
 }
 
+using WireEncodings = google::protobuf::RepeatedField<int>;
+
+void pack_encodings(Encodings const& encodings, WireEncodings& body)
+{
+    if (encodings.sparse) body.Add(v1::ENCODING_SPARSE);
+    if (encodings.float32) body.Add(v1::ENCODING_FLOAT32);
+    if (encodings.lz4) body.Add(v1::ENCODING_LZ4);
+}
+
+/// Those that a later version adds are not for us.
+Encodings unpack_encodings(WireEncodings const& body)
+{
+    auto const has = [&](v1::Encoding encoding) { return std::find(body.begin(), body.end(), encoding) != body.end(); };
+    return {has(v1::ENCODING_SPARSE), has(v1::ENCODING_FLOAT32), has(v1::ENCODING_LZ4)};
+}
+
 void pack_iteration(Iteration const& iteration, v1::Iteration& body)
 {
     body.set_tolerance(iteration.tolerance);
@@ -99,6 +115,7 @@ Message pack(Hello const& hello)
     if (hello.resume) pack_resume_point(*hello.resume, body);
     body.set_iterates(hello.iterates);
     pack_rank(hello.rank, body);
+    pack_encodings(hello.encodings, *body.mutable_encodings());
     return message;
 }
 
@@ -117,6 +134,7 @@ Message pack(Welcome const& welcome)
     if (welcome.schedule == Schedule::iterated) pack_iteration(welcome.iteration, *body.mutable_iteration());
     for (std::string const& endpoint : welcome.rank_endpoints)
         body.add_rank_endpoints(endpoint);
+    pack_encodings(welcome.encodings, *body.mutable_encodings());
     return message;
 }
 
@@ -132,6 +150,7 @@ Hello unpack_hello(Message const& message)
     hello.resume = unpack_resume_point(body);
     hello.iterates = body.iterates();
     hello.rank = unpack_rank(body);
+    hello.encodings = unpack_encodings(body.encodings());
 
     check_name(hello.name, "Hello: the client's name");
     check_number(hello.fluid.density, 0, "Hello: density");
@@ -157,6 +176,7 @@ Welcome unpack_welcome(Message const& message)
     welcome.fluid_steps = std::max(1, body.fluid_steps());
     if (*schedule == Schedule::iterated) welcome.iteration = unpack_iteration(body.iteration());
     welcome.rank_endpoints.assign(body.rank_endpoints().begin(), body.rank_endpoints().end());
+    welcome.encodings = unpack_encodings(body.encodings());
 
     check_name(welcome.server, "Welcome: the server's name");
     check_number(welcome.end_time, 0, "Welcome: end time");

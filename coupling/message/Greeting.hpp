@@ -24,6 +24,7 @@ struct Hello
     std::optional<ResumePoint> resume;
     bool iterates = false;
     Rank rank;
+    Encodings encodings = {};  ///< that the client can use
 };
 
 /// What cannot be true of a rank, in words.

@@ -57,6 +57,8 @@ std::string kind_name(Kind kind)
             return "Checkpoint";
         case Kind::kCheckpointSaved:
             return "CheckpointSaved";
+        case Kind::kFluidWanted:
+            return "FluidWanted";
         case Kind::kStatusRequest:
             return "StatusRequest";
         case Kind::kStatus:

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "gimdem/coupling/CellRuns.hpp"
 #include "gimdem/coupling/Error.hpp"
 #include "gimdem/coupling/Span.hpp"
 #include "gimdem/v1/session.pb.h"
@@ -19,9 +21,11 @@ using Kind = v1::Envelope::KindCase;
 /// Numbers that are still to be copied into their frame.
 struct Unfilled
 {
-    std::size_t array;  ///< position among the arrays
-    Span<double const> values;
-    bool is_shared;  ///< the frame lies in memory that the peer reads
+    std::size_t array;                             ///< position among the arrays
+    Span<double const> values;                     ///< of all cells
+    bool is_shared;                                ///< the frame lies in memory that the peer reads
+    std::optional<CellRuns> cells = std::nullopt;  ///< the cells whose rows travel; absent: all
+    bool compress = false;                         ///< the frame is to be compressed
 };
 
 /// The envelope, and the frames of the arrays that it describes.

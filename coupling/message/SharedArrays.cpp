@@ -53,8 +53,12 @@ void attach_shared(Message& message, transport::Mapping const* memory)
 std::size_t array_bytes(Message const& message)
 {
     std::size_t sum = 0;
-    for (v1::ArrayHeader const& header : message.envelope.arrays())
-        sum += byte_count(header);
+    for (std::size_t k = 0; k < message.arrays.size(); ++k)
+    {
+        v1::ArrayHeader const& header = message.envelope.arrays(static_cast<int>(k));
+        bool const packed = header.compression() != v1::COMPRESSION_NONE;
+        sum += packed ? message.arrays[k].size() : byte_count(header);
+    }
     return sum;
 }
 

@@ -18,7 +18,7 @@ void mark_shared(Message& message, std::uint64_t offset);
 /// The frames live as long as the memory does.
 void attach_shared(Message& message, transport::Mapping const* memory);
 
-/// The bytes of all arrays, wherever they lie; the headers must have been checked.
+/// The bytes of all arrays as they travel, wherever they lie; the headers must have been checked.
 std::size_t array_bytes(Message const& message);
 
 /// Hello and Welcome: the sender can use shared memory and wants to.

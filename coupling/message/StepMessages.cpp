@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "message/ClockMessages.hpp"
+#include "message/Runs.hpp"
 
 namespace gimdem::coupling::message
 {
@@ -70,6 +71,36 @@ std::vector<Monitor> unpack_monitors(v1::FluidState const& body)
     return monitors;
 }
 
+/// Both sides must have agreed on the ways that the arrays travel.
+void check_encodings(Message const& message, Encodings const& encodings)
+{
+    for (v1::ArrayHeader const& header : message.envelope.arrays())
+    {
+        std::string const who = describe(message) + ": array \"" + header.name() + "\"";
+        if (!header.dense() && !encodings.sparse) refuse(who + " is sparse, which was not agreed on");
+        if (header.type() == v1::ELEMENT_TYPE_F32 && !encodings.float32)
+            refuse(who + " has numbers of 32 bits, which was not agreed on");
+        if (header.compression() != v1::COMPRESSION_NONE && !encodings.lz4)
+            refuse(who + " is compressed, which was not agreed on");
+    }
+}
+
+/// Has the fluid all cells? Fault::protocol if cells that are needed are not in it.
+bool is_complete(Message const& message, Terms const& terms)
+{
+    bool complete = true;
+    for (int k = 0; k < message.envelope.arrays_size(); ++k)
+    {
+        v1::ArrayHeader const& header = message.envelope.arrays(k);
+        if (header.dense()) continue;
+        complete = false;
+        CellRuns const* const needed = needed_cells(terms.needed, header.name());
+        if (needed == nullptr || !contains(cells_of_array(message.envelope, k, terms.cell_count), *needed))
+            refuse(describe(message) + ": array \"" + header.name() + "\" lacks cells that the server needs");
+    }
+    return complete;
+}
+
 }  // namespace
 
 Message lay_out(FluidState const& state, Terms const& terms)
@@ -94,7 +125,8 @@ Message lay_out(FluidState const& state, Terms const& terms)
         body.mutable_rewind()->set_residual(state.residual);
     else
         body.set_residual(state.residual);
-    lay_out_fields(message, terms.fluid, state.fields, terms.cell_count, terms.memory);
+    lay_out_fields(message, terms.fluid, state.fields, terms.cell_count, terms.memory,
+                   {terms.encodings, &terms.needed, nullptr});
     return message;
 }
 
@@ -106,7 +138,16 @@ Message lay_out(SolidState const& state, Terms const& terms)
     body.set_busy_time(state.busy_time);
     body.set_stop_requested(state.stop_request.has_value());
     body.set_stop_reason(printable(state.stop_request.value_or("")));
-    lay_out_fields(message, terms.solid, state.fields, terms.cell_count, terms.memory);
+    if (terms.encodings.sparse) pack_needed(state.cells.needed, body);
+    lay_out_fields(message, terms.solid, state.fields, terms.cell_count, terms.memory,
+                   {terms.encodings, nullptr, state.cells.solid ? &*state.cells.solid : nullptr});
+    return message;
+}
+
+Message pack_fluid_wanted()
+{
+    Message message;
+    message.envelope.mutable_fluid_wanted();
     return message;
 }
 
@@ -121,7 +162,9 @@ FluidState unpack_fluid_state(Message const& message, Terms const& terms)
 
     FluidState state;
     state.step = {body.step().number(), body.step().time(), body.step().dt()};
-    state.fields = view_fields(message, terms.fluid, terms.cell_count);
+    check_encodings(message, terms.encodings);
+    state.fields = view_fields(message, terms.fluid, terms.cell_count, terms.store);
+    state.is_complete = is_complete(message, terms);
     state.monitors = unpack_monitors(body);
     state.previous = unpack_timings(body.previous());
     state.exchange = body.exchange();
@@ -146,7 +189,9 @@ SolidState unpack_solid_state(Message const& message, Terms const& terms)
     check_number(body.busy_time(), 0, "SolidState: busy time");
 
     SolidState state;
-    state.fields = view_fields(message, terms.solid, terms.cell_count);
+    check_encodings(message, terms.encodings);
+    state.fields = view_fields(message, terms.solid, terms.cell_count, terms.store);
+    state.cells.needed = unpack_needed(body, terms.cell_count);
     state.timings = unpack_timings(body.timings());
     state.busy_time = body.busy_time();
     if (body.stop_requested()) state.stop_request = body.stop_reason();

@@ -33,19 +33,20 @@ struct Client::Impl
 {
     explicit Impl(ClientOptions given);
 
-    void connect(FluidProperties const& fluid);
+    void connect(FluidProperties const& properties);
     void send_mesh(MeshView const& mesh);
-    void begin_step(Step const& step, FluidFields const& fluid, std::vector<Monitor> const& monitors);
+    void begin_step(Step const& step, FluidFields const& fields, std::vector<Monitor> const& monitors);
     SavedCheckpoint save_checkpoint(CheckpointRequest const& request);
     void iterate_step(FluidFields const& estimate, double residual);
     void end_step(Timings const& timings, double residual);
-    void send_fluid(Event call, FluidState const& fluid, Time entered);
+    void send_fluid(Event call, FluidState const& given, Time entered);
     Event begin_event() const;
     void finish(std::string const& reason);
 
     void check_rank_endpoints();
     session::Letter receive(std::string const& awaited);
     Time take_solid();
+    void send_whole_fluid();
     bool overlaps() const { return welcome.schedule == Schedule::overlapped; }
 
     /// Runs a call; a fault that leaves the session alive is remembered, in case the program ends because of it.
@@ -72,6 +73,7 @@ struct Client::Impl
     session::SharedFields shared;    ///< outlives the messages that lie in it
     message::Message solid_message;  ///< holds the bytes that the spans of solid show
     message::SolidState solid;
+    FluidState fluid;              ///< that was sent last, while its spans live: the server may want all of it
     Timings previous;              ///< of the last fluid step
     double previous_residual = 0;  ///< of the last pass of the step before
     Step step;
@@ -96,20 +98,21 @@ Client::Impl::Impl(ClientOptions given)
     terms.solid = message::choose_solid_fields(options.wants, Fault::user);
 }
 
-void Client::Impl::connect(FluidProperties const& fluid)
+void Client::Impl::connect(FluidProperties const& properties)
 {
     session.require(Event::connect);
     session.open(transport::Socket::connect(options.endpoint, keys));
     session.advance(Event::connect);
     shared.want(options.shared_memory && session.is_ipc());
     message::Message hello = message::pack(message::Hello{.name = options.name,
-                                                          .fluid = fluid,
+                                                          .fluid = properties,
                                                           .wants = options.wants,
                                                           .schedule = options.schedule,
                                                           .timeout = options.timeout,
                                                           .resume = options.resume,
                                                           .iterates = options.iterates,
-                                                          .rank = options.rank});
+                                                          .rank = options.rank,
+                                                          .encodings = options.encodings});
     shared.offer(hello);
     record.stamp(hello);
     Time const hello_sent = Clock::now();
@@ -125,6 +128,7 @@ void Client::Impl::connect(FluidProperties const& fluid)
     session.set_peer_name(welcome.server);
     check_rank_endpoints();
     shared.agree(letter.message);
+    terms.encodings = both(welcome.encodings, options.encodings);
     session.read([&] { record.heard(letter.message, hello_sent, letter.arrival); });
     terms.fluid = session.read([&] { return message::choose_fluid_fields(welcome.needs, Fault::protocol); });
     record.log().write(LogLevel::info, "connected", "connected to " + welcome.server,
@@ -143,7 +147,7 @@ void Client::Impl::send_mesh(MeshView const& mesh)
     session.advance(Event::send_mesh);
     terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
     session.limit_arrays(message::field_bytes(terms.solid, terms.cell_count));
-    shared.announce(message, message::shared_bytes(terms.fluid, terms.cell_count));
+    shared.announce(message, message::shared_bytes(terms.fluid, terms.cell_count, terms.encodings.sparse));
     session.send(std::move(message));
 
     session::Letter const letter = receive("MeshAccepted");
@@ -155,10 +159,10 @@ void Client::Impl::send_mesh(MeshView const& mesh)
                        {{"cells", static_cast<double>(mesh.cell_count)}});
 }
 
-void Client::Impl::begin_step(Step const& next, FluidFields const& fluid, std::vector<Monitor> const& monitors)
+void Client::Impl::begin_step(Step const& next, FluidFields const& fields, std::vector<Monitor> const& monitors)
 {
     ExchangeTimes const& so_far = clock.times();
-    send_fluid(begin_event(), {next, fluid, monitors, previous, so_far.exchange, so_far.waiting, 0, previous_residual},
+    send_fluid(begin_event(), {next, fields, monitors, previous, so_far.exchange, so_far.waiting, 0, previous_residual},
                Clock::now());
 }
 
@@ -183,10 +187,11 @@ Event Client::Impl::begin_event() const
 }
 
 /// Sends a fluid and, unless both compute at once, takes its answer.
-void Client::Impl::send_fluid(Event call, FluidState const& fluid, Time entered)
+void Client::Impl::send_fluid(Event call, FluidState const& given, Time entered)
 {
     session.require(call);
     if (call == Event::iterate_step) record.ended(entered, entered, 0);
+    fluid = given;
     message::Message message = message::lay_out(fluid, terms);
     shared.confirm(message);
     record.put_into_fluid(message);
@@ -276,6 +281,11 @@ Time Client::Impl::take_solid()
     std::string const awaited =
         "step " + std::to_string(step.number) + (pass > 0 ? ", pass " + std::to_string(pass) : "");
     session::Letter letter = receive("SolidState of " + awaited);
+    while (letter.message.kind() == message::Kind::kFluidWanted)
+    {
+        send_whole_fluid();
+        letter = receive("SolidState of " + awaited);
+    }
     v1::Envelope const& envelope = letter.message.envelope;
     if (envelope.step() != step.number || envelope.iteration() != pass)
         session.fail(Fault::protocol, message::describe(letter.message) + " from " + session.peer_name() +
@@ -284,8 +294,21 @@ Time Client::Impl::take_solid()
     session.read([&] { shared.attach(letter.message); });
     solid = session.read([&] { return message::unpack_solid_state(letter.message, terms); });
     session.read([&] { record.heard(letter.message, fluid_sent, letter.arrival); });
+    terms.needed = solid.cells.needed;
     solid_message = std::move(letter.message);
     return letter.arrival;
+}
+
+/// The same fluid again, with all cells.
+void Client::Impl::send_whole_fluid()
+{
+    terms.needed.clear();
+    message::Message message = message::lay_out(fluid, terms);
+    shared.confirm(message);
+    record.put_into_fluid(message);
+    session.prepare(message);
+    session.send(std::move(message));
+    terms.memory.message_sent();
 }
 
 Client::Client(ClientOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}

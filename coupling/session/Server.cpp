@@ -52,8 +52,8 @@ struct Server::Impl : session::Exchange
     void look_for_loss() override { session.look_for_loss("all ranks"); }
     bool has_failed() const override { return session.state() == State::failed; }
 
-    /// Of a client in several processes none are saved.
-    bool saves_checkpoints() const { return saver && !ranks && !expected_rank; }
+    /// Of several ranks, rank 0 asks for all.
+    bool saves_checkpoints() const { return saver && !expected_rank; }
     void wait_for_contact();
     void check_rank(Rank const& rank);
     void listen_for_others(Rank const& first);
@@ -66,6 +66,7 @@ struct Server::Impl : session::Exchange
     session::Exchange const& whole() const { return const_cast<Impl*>(this)->whole(); }
 
     session::Letter receive(std::string const& awaited);
+    void complete(FluidState& fluid);
     void save_checkpoint(session::Letter const& letter);
     bool said_goodbye(session::Letter const& letter);
     void check_order(FluidState const& fluid);
@@ -95,6 +96,7 @@ struct Server::Impl : session::Exchange
     bool iterates = false;  ///< the schedule iterated is in force
     int pass = 0;           ///< of the fluid that is being answered
     std::string goodbye;
+    StepCells cells;         ///< of the solid that is sent next
     double busy_before = 0;  ///< the last fluid lay here unread for so long [s]
     Time handed_out;         ///< when receive_fluid() returned
     ServerTimes times;       ///< of the last step
@@ -134,6 +136,8 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
     check_rank(hello.rank);
     if (!expected_rank && hello.rank.count > 1) listen_for_others(hello.rank);
     session.choose_session_number();
+    terms.encodings = both(options.encodings, hello.encodings);
+    if (hello.rank.count > 1) terms.encodings.sparse = false;  // needs are told by the cells of one process
     terms.solid = message::choose_solid_fields(hello.wants, Fault::protocol);
     Schedule const schedule = hello.schedule.value_or(offered.schedule);
     iterates = schedule == Schedule::iterated;
@@ -151,7 +155,8 @@ ClientInfo Server::Impl::wait_for_client(ServerTerms const& offered)
                               .saves_checkpoints = saves_checkpoints(),
                               .fluid_steps = offered.fluid_steps,
                               .iteration = offered.iteration,
-                              .rank_endpoints = ranks ? ranks->endpoints() : std::vector<std::string>()});
+                              .rank_endpoints = ranks ? ranks->endpoints() : std::vector<std::string>(),
+                              .encodings = terms.encodings});
     shared.offer(welcome);
     shared.agree(letter.message);
     session.limit_arrays(transport::half_of_memory());
@@ -229,12 +234,13 @@ Mesh Server::Impl::receive_mesh()
 void Server::Impl::accept_mesh(SolidFields const& initial, Timings const& timings)
 {
     session.require(Event::accept_mesh);
-    message::Message solid = message::pack(message::SolidState{initial, timings, 0, stop_reason()}, terms);
+    message::Message solid = message::pack(message::SolidState{initial, timings, 0, stop_reason(), cells}, terms);
+    terms.needed = cells.needed;
     session.look_for_trouble("the judgement of the mesh by its program");
     session.advance(Event::accept_mesh);
     message::Message accepted = message::pack_mesh_accepted(static_cast<std::int32_t>(terms.cell_count));
     shared.confirm(accepted);
-    shared.announce(accepted, message::shared_bytes(terms.solid, terms.cell_count));
+    shared.announce(accepted, message::shared_bytes(terms.solid, terms.cell_count, terms.encodings.sparse));
     session.send(std::move(accepted));
     session.send(std::move(solid));
 }
@@ -266,6 +272,26 @@ std::optional<FluidState> Server::Impl::receive_fluid()
     return fluid;
 }
 
+void Server::Impl::complete(FluidState& fluid)
+{
+    if (fluid.is_complete) return;
+    session.require(Event::complete);
+    session.advance(Event::complete);
+    session.send(message::pack_fluid_wanted());
+    session::Letter letter = receive("the whole FluidState");
+    session.read([&] { shared.attach(letter.message); });
+    FluidState whole = session.read([&] { return message::unpack_fluid_state(letter.message, terms); });
+    bool const is_same = whole.step.number == fluid.step.number && whole.step.time == fluid.step.time &&
+                         whole.step.dt == fluid.step.dt && whole.pass == fluid.pass;
+    if (!is_same || !whole.is_complete)
+        session.fail(Fault::protocol, message::describe(letter.message) + " from " + session.peer_name() +
+                                          " is not the whole fluid of step " + std::to_string(fluid.step.number) +
+                                          " that was asked for; see docs/protocol.md");
+    fluid.fields = whole.fields;
+    fluid.is_complete = true;
+    fluid_message = std::move(letter.message);
+}
+
 void Server::Impl::save_checkpoint(session::Letter const& letter)
 {
     CheckpointRequest const request = session.read([&] { return message::unpack_checkpoint_request(letter.message); });
@@ -283,7 +309,7 @@ void Server::Impl::send_solid(SolidFields const& fields, Timings const& timings)
     times.answering = clock_now();
     double const busy = busy_before + seconds_between(handed_out, Clock::now());
     session.require(Event::send_solid);
-    message::Message solid = message::lay_out(message::SolidState{fields, timings, busy, stop_reason()}, terms);
+    message::Message solid = message::lay_out(message::SolidState{fields, timings, busy, stop_reason(), cells}, terms);
     solid.envelope.set_iteration(pass);
     message::put({times.arrived, times.answering, options.clock_origin, 0}, solid);
     session.prepare(solid);
@@ -291,6 +317,7 @@ void Server::Impl::send_solid(SolidFields const& fields, Timings const& timings)
     session.advance(Event::send_solid);
     session.send(std::move(solid));
     terms.memory.message_sent();
+    terms.needed = cells.needed;
     times.answered = clock_now();
 }
 
@@ -358,8 +385,9 @@ Mesh Server::receive_mesh()
     return impl_->guard([&] { return impl_->whole().receive_mesh(); });
 }
 
-void Server::accept_mesh(SolidFields const& initial, Timings const& timings)
+void Server::accept_mesh(SolidFields const& initial, Timings const& timings, StepCells const& cells)
 {
+    impl_->cells = cells;
     impl_->guard([&] { impl_->whole().accept_mesh(initial, timings); });
 }
 
@@ -383,8 +411,14 @@ std::string const& Server::goodbye_reason() const
     return impl_->whole().goodbye_reason();
 }
 
-void Server::send_solid(SolidFields const& fields, Timings const& timings)
+void Server::complete(FluidState& fluid)
 {
+    impl_->guard([&] { impl_->complete(fluid); });
+}
+
+void Server::send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells)
+{
+    impl_->cells = cells;
     impl_->guard([&] { impl_->whole().send_solid(fields, timings); });
 }
 

@@ -12,7 +12,7 @@ using S = State;
 using E = Event;
 using message::Kind;
 
-std::array<Rule, 24> constexpr client_table{{
+std::array<Rule, 25> constexpr client_table{{
     {S::created, E::connect, S::greeting},
     {S::greeting, E::welcome, S::welcomed},
     {S::welcomed, E::send_mesh, S::meshing},
@@ -20,6 +20,7 @@ std::array<Rule, 24> constexpr client_table{{
     {S::accepted, E::solid_state, S::ready},
     // serial
     {S::ready, E::begin_serial_step, S::waiting},
+    {S::waiting, E::fluid_wanted, S::waiting},
     {S::waiting, E::solid_state, S::solving},
     {S::solving, E::end_step, S::ready},
     // overlapped
@@ -44,7 +45,7 @@ std::array<Rule, 24> constexpr client_table{{
     {S::finished, E::finish, S::finished},
 }};
 
-std::array<Rule, 16> constexpr server_table{{
+std::array<Rule, 18> constexpr server_table{{
     {S::listening, E::wait_for_client, S::listening},
     {S::listening, E::hello, S::welcomed},
     {S::welcomed, E::receive_mesh, S::welcomed},
@@ -53,6 +54,8 @@ std::array<Rule, 16> constexpr server_table{{
     {S::meshing, E::reject_mesh, S::failed},
     {S::ready, E::receive_fluid, S::ready},
     {S::ready, E::fluid_state, S::computing},
+    {S::computing, E::complete, S::completing},
+    {S::completing, E::fluid_state, S::computing},
     {S::computing, E::send_solid, S::ready},
     // between two steps
     {S::ready, E::checkpoint, S::saving},
@@ -113,6 +116,8 @@ std::string name_of(State state)
             return "iterating";
         case S::computing:
             return "computing";
+        case S::completing:
+            return "completing";
         case S::saving:
             return "saving";
         case S::finished:
@@ -155,6 +160,8 @@ std::string name_of(Event event)
             return "reject_mesh()";
         case E::receive_fluid:
             return "receive_fluid()";
+        case E::complete:
+            return "complete()";
         case E::send_solid:
             return "send_solid()";
         case E::hello:
@@ -169,6 +176,8 @@ std::string name_of(Event event)
             return message::kind_name(Kind::kFluidState);
         case E::solid_state:
             return message::kind_name(Kind::kSolidState);
+        case E::fluid_wanted:
+            return message::kind_name(Kind::kFluidWanted);
         case E::goodbye:
             return message::kind_name(Kind::kGoodbye);
         case E::checkpoint:
@@ -195,6 +204,8 @@ std::optional<Event> event_of(Kind kind)
             return E::fluid_state;
         case Kind::kSolidState:
             return E::solid_state;
+        case Kind::kFluidWanted:
+            return E::fluid_wanted;
         case Kind::kGoodbye:
             return E::goodbye;
         case Kind::kCheckpoint:

@@ -27,6 +27,7 @@ enum class State
     awaiting,     ///< client, iterated: for the solid of this pass, while its program is blocked
     iterating,    ///< client, iterated: for its program to repeat or to end the fluid step
     computing,    ///< server: for its program to answer the fluid
+    completing,   ///< server: for the cells of the fluid that were left out
     saving,       ///< client: for CheckpointSaved; server: for its program to save a checkpoint
     finished,     ///< both: Goodbye was said
     failed        ///< both: a fault ended the session
@@ -52,6 +53,7 @@ enum class Event
     accept_mesh,
     reject_mesh,
     receive_fluid,
+    complete,
     send_solid,
     checkpoint_is_saved,
     // messages
@@ -61,6 +63,7 @@ enum class Event
     mesh_accepted,
     fluid_state,
     solid_state,
+    fluid_wanted,
     goodbye,
     checkpoint,
     checkpoint_saved

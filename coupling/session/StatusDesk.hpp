@@ -24,7 +24,7 @@ public:
     Status fill() const;
 
 private:
-    /// An answer takes some 20 microseconds of the I/O thread: a flood of questions costs less than a thousandth of it.
+    /// An answer reads one small file and writes one short message: so many cost the I/O thread next to nothing.
     static constexpr double answers_per_second = 20;
 
     RateLimit limit_{answers_per_second};

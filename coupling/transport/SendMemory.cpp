@@ -23,21 +23,25 @@ struct SendMemory::Ring
     }
 
     /// The next free place in the slot, or null.
-    unsigned char* place(std::size_t bytes)
+    unsigned char* place(std::size_t bytes, bool any_size)
     {
-        if (!segment || segment->memory().bytes() < mailbox_bytes || bytes < least_shared_bytes ||
+        if (!segment || segment->memory().bytes() < mailbox_bytes || (bytes < least_shared_bytes && !any_size) ||
             bytes > slot_bytes() - used)
             return nullptr;
         unsigned char* const begin = segment->memory().data() + slot * slot_bytes() + used;
-        used = std::min(slot_bytes(), used + shared_bytes(bytes));
+        used = std::min(slot_bytes(), used + aligned_bytes(bytes));
         return begin;
     }
 };
 
+std::size_t aligned_bytes(std::size_t bytes)
+{
+    return (bytes + shared_alignment - 1) / shared_alignment * shared_alignment;
+}
+
 std::size_t shared_bytes(std::size_t array_bytes)
 {
-    if (array_bytes < least_shared_bytes) return 0;
-    return (array_bytes + shared_alignment - 1) / shared_alignment * shared_alignment;
+    return array_bytes < least_shared_bytes ? 0 : aligned_bytes(array_bytes);
 }
 
 std::size_t segment_bytes(std::size_t slot_bytes)
@@ -57,9 +61,9 @@ void SendMemory::begin_message() const
     ring_->used = 0;
 }
 
-Frame SendMemory::make(std::size_t bytes) const
+Frame SendMemory::make(std::size_t bytes, bool any_size) const
 {
-    if (unsigned char* const place = ring_->place(bytes))
+    if (unsigned char* const place = ring_->place(bytes, any_size))
         return Frame(
             place, bytes, [](void*, void*) {}, nullptr);
     return pool_.make(bytes);

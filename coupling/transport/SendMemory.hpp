@@ -20,6 +20,8 @@ inline constexpr std::size_t slot_count = 3;
 /// Arrays begin at multiples of this, a cache line [byte].
 inline constexpr std::size_t shared_alignment = 64;
 
+/// The next multiple of the alignment.
+std::size_t aligned_bytes(std::size_t bytes);
 /// Bytes of a slot that such an array takes; none if it goes as a frame.
 std::size_t shared_bytes(std::size_t array_bytes);
 /// Size of a segment whose slots hold so many bytes each: the slots, then the mailbox.
@@ -38,7 +40,8 @@ public:
     /// A new message is packed into the slot that is next; what was packed there but not sent is forgotten.
     void begin_message() const;
     /// A frame of so many bytes, not initialised.
-    Frame make(std::size_t bytes) const;
+    /// any_size: small ones go to the segment, too, so that a message with large and small arrays can be posted.
+    Frame make(std::size_t bytes, bool any_size = false) const;
     /// Where in the segment that frame lies; empty if it is an ordinary one [byte].
     std::optional<std::uint64_t> offset_of(Frame const& frame) const;
     /// The message is on its way: its slot belongs to the reader until slot_count - 1 more have been sent.

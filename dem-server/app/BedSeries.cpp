@@ -120,6 +120,18 @@ void BedSeries::write_row(coupling::FluidState const& fluid, CoupledEngine const
     interval_ = {};
 }
 
+std::vector<std::int32_t> BedSeries::monitored_cells() const
+{
+    std::vector<std::int32_t> cells;
+    for (PlaneSection const& plane : planes_)
+        plane.list_cells(cells);
+    for (coupling::Patch const* const patch : {inlet_, outlet_})
+        if (patch != nullptr)
+            cells.insert(cells.end(), mesh_.topology().owner.begin() + patch->start_face,
+                         mesh_.topology().owner.begin() + patch->start_face + patch->face_count);
+    return cells;
+}
+
 double BedSeries::pressure_drop(coupling::FluidFields const& fluid) const
 {
     if (!has_pressure_drop() || fluid.pressure.empty()) return 0;

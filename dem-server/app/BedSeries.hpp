@@ -33,6 +33,10 @@ public:
     std::int64_t rewind(double time);
     double pressure_drop(coupling::FluidFields const& fluid) const;  ///< [Pa], 0 where it is not asked for
 
+    /// The cells whose pressure and gradients are read in every step.
+    std::vector<std::int32_t> monitored_cells() const;
+    bool is_open() const { return series_.has_value(); }
+
     /// Null if the case names none.
     coupling::Patch const* inlet() const { return inlet_; }
 

@@ -127,6 +127,7 @@ CoupledRun::CoupledRun(Case const& settings, std::filesystem::path const& folder
       coupling_log_(folder, mesh_, schedule_),
       engine_(settings, execution_, mesh_, walls_, client_.fluid, system_)
 {
+    engine_.monitor(log_.monitored_cells());
 }
 
 void CoupledRun::start(std::optional<std::filesystem::path> const& restart)
@@ -178,17 +179,17 @@ void CoupledRun::go_on(coupling::ClientInfo const& client)
 void CoupledRun::couple()
 {
     auto asked = std::chrono::steady_clock::now();
-    while (auto const fluid = server_.receive_fluid())
+    while (auto fluid = server_.receive_fluid())
     {
         double const output_time =
             fluid->pass == 0 ? begin_step(*fluid, seconds_since(asked)) : repeat_step(seconds_since(asked));
         observer_.begin_step(*fluid);
         is_in_step_ = true;
-        StepReport report = engine_.advance(fluid->step, fluid->fields);
+        StepReport report = engine_.advance(fluid->step, fluid->fields, whole(*fluid));
         is_in_step_ = false;
         report.timings.output = output_time;
         if (interrupted()) server_.request_stop("interrupted by the user");
-        server_.send_solid(engine_.fields(), report.timings);
+        server_.send_solid(engine_.fields(), report.timings, cells_to_send(fluid->step.time + fluid->step.dt));
         log_.record(*fluid, report, engine_);
         coupling_log_.answered(*fluid, report, engine_);
         reached_ = fluid->step.time + fluid->step.dt;
@@ -245,10 +246,28 @@ void CoupledRun::finish_records()
     log_.finish(server_.bytes());
 }
 
+std::function<coupling::FluidFields()> CoupledRun::whole(coupling::FluidState& fluid)
+{
+    if (fluid.is_complete) return {};
+    return [this, &fluid]
+    {
+        server_.complete(fluid);
+        return fluid.fields;
+    };
+}
+
+// In schedule iterated the next fluid may be that of the same step once more.
+coupling::StepCells CoupledRun::cells_to_send(double time)
+{
+    coupling::StepCells cells = engine_.step_cells(schedule_ == coupling::Schedule::serial);
+    if (log_.expects_frame(time) || schedule_ == coupling::Schedule::iterated) cells.needed.clear();
+    return cells;
+}
+
 double CoupledRun::begin_step(coupling::FluidState const& fluid, double waited)
 {
     accept();
-    coupling_log_.arrived(fluid, waited);
+    coupling_log_.arrived(fluid, waited, server_.bytes());
     if (at_.step == start_.step) check_start(fluid.step);
     double const output_time = log_.sample(fluid, engine_);
     if (schedule_ == coupling::Schedule::iterated) engine_.remember();
@@ -295,7 +314,7 @@ void CoupledRun::load(std::filesystem::path const& file)
 
 void CoupledRun::accept_mesh()
 {
-    server_.accept_mesh(engine_.fields());
+    server_.accept_mesh(engine_.fields(), {}, cells_to_send(at_.time));
     if (!server_.shared_memory_note().empty()) events_.warn("plain_frames", server_.shared_memory_note());
     events_.note("mesh_accepted", "the mesh is accepted",
                  {{"cells", static_cast<double>(mesh_.cell_count())},

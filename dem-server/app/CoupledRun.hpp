@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +55,10 @@ private:
     void load(std::filesystem::path const& file);
     void accept_mesh();
     void finish_records();
+    /// In serial runs the client, which waits, can be asked for the cells that it left out. Empty: there are none.
+    std::function<coupling::FluidFields()> whole(coupling::FluidState& fluid);
+    /// For the solid of a step that ends at `time` [s], and the fluid of the next one.
+    coupling::StepCells cells_to_send(double time);
     /// Returns how long output took [s].
     double begin_step(coupling::FluidState const& fluid, double waited);
     /// The same for a pass after the first.

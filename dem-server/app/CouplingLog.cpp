@@ -18,6 +18,8 @@ CouplingLog::CouplingLog(std::filesystem::path const& folder, PolyMesh const& me
                                         {"wall", "s"},
                                         {"server_waiting", "s"},
                                         {"client_waiting", "s"},
+                                        {"exchange", "s"},
+                                        {"exchange_bytes", "B"},
                                         {"overlap_efficiency", "1"},
                                         {"lag_force", "1"},
                                         {"lag_solid_fraction", "1"},
@@ -27,11 +29,16 @@ CouplingLog::CouplingLog(std::filesystem::path const& folder, PolyMesh const& me
 {
 }
 
-void CouplingLog::arrived(coupling::FluidState const& fluid, double waited)
+void CouplingLog::arrived(coupling::FluidState const& fluid, double waited, double bytes)
 {
     auto const now = std::chrono::steady_clock::now();
-    if (running_) close(fluid, now, waited);
-    running_ = {.step = fluid.step, .began = now, .client_waiting = fluid.waiting, .lag = {}};
+    if (running_) close(fluid, now, waited, bytes);
+    running_ = {.step = fluid.step,
+                .began = now,
+                .client_waiting = fluid.waiting,
+                .exchange = fluid.exchange,
+                .bytes = bytes,
+                .lag = {}};
 }
 
 void CouplingLog::rewind(double time)
@@ -43,12 +50,13 @@ void CouplingLog::rewind(double time)
 void CouplingLog::answered(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine)
 {
     ++running_->passes;
+    running_->fluid_was_wanted |= report.fluid_was_wanted;
     running_->dem_steps = report.dem_steps;
     running_->dem += report.timings.compute + report.timings.mapping + report.timings.output;
     if (fluid.pass == 0) running_->lag = lag_.measure(engine.fields(), fluid.fields.velocity);
 }
 
-void CouplingLog::close(coupling::FluidState const& next, Time now, double waited)
+void CouplingLog::close(coupling::FluidState const& next, Time now, double waited, double bytes)
 {
     output::StepTimes const times{running_->dem, next.previous.compute + next.previous.output,
                                   std::chrono::duration<double>(now - running_->began).count()};
@@ -57,6 +65,9 @@ void CouplingLog::close(coupling::FluidState const& next, Time now, double waite
     overlap_.add(times);
     server_waiting_ += server_waiting;
     client_waiting_ += client_waiting;
+    double const exchange = next.exchange - running_->exchange;
+    exchange_ += exchange;
+    whole_fluids_ += running_->fluid_was_wanted;
     double const dt = running_->step.dt;
     duration_ += dt;
     lag_sum_.force += dt * running_->lag.force;
@@ -65,8 +76,9 @@ void CouplingLog::close(coupling::FluidState const& next, Time now, double waite
     lag_worst_.solid_fraction = std::max(lag_worst_.solid_fraction, running_->lag.solid_fraction);
     series_.append(std::array{static_cast<double>(running_->step.number), running_->step.time, dt,
                               static_cast<double>(running_->dem_steps), times.dem, times.cfd, times.wall,
-                              server_waiting, client_waiting, overlap_efficiency(times), running_->lag.force,
-                              running_->lag.solid_fraction, static_cast<double>(running_->passes), next.residual});
+                              server_waiting, client_waiting, exchange, bytes - running_->bytes,
+                              overlap_efficiency(times), running_->lag.force, running_->lag.solid_fraction,
+                              static_cast<double>(running_->passes), next.residual});
     ++steps_;
     passes_ += running_->passes;
     most_passes_ = std::max(most_passes_, running_->passes);
@@ -80,6 +92,8 @@ void CouplingLog::add_to(output::Summary& summary) const
     summary.add("overlap_vs_max", overlap_.wall_over_longer(), "1");
     summary.add("server_waiting", server_waiting_, "s");
     summary.add("client_waiting", client_waiting_, "s");
+    summary.add("exchange_per_step", exchange_ / static_cast<double>(steps_), "s");
+    summary.add("whole_fluids_asked_for", static_cast<double>(whole_fluids_), "1");
     summary.add("lag_force", lag_sum_.force / duration_, "1");
     summary.add("lag_force_worst", lag_worst_.force, "1");
     summary.add("lag_solid_fraction", lag_sum_.solid_fraction / duration_, "1");

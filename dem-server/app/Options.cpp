@@ -2,6 +2,7 @@
 #include "app/Options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 
 #include "core/Error.hpp"
@@ -47,6 +48,10 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
     app.add_option("--grace-time", options.grace_time,
                    "how long a client that was lost may take to come back to its last checkpoint [s]; 0: it may not")
         ->check(CLI::NonNegativeNumber);
+    std::vector<std::string> encodings{"sparse"};
+    app.add_option("--encoding", encodings,
+                   "how fields travel, where the client can: sparse, float32, lz4, several of them, or dense (sparse)")
+        ->check(CLI::IsMember({"dense", "sparse", "float32", "lz4"}));
     app.add_option("--trace-steps", options.trace.steps, "write trace.json of so many steps, for Perfetto")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--trace-every", options.trace.every, "of every so many steps")->check(CLI::PositiveNumber);
@@ -57,6 +62,9 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
     {
         app.parse(argc, argv);
         if (options.case_file.empty() && !options.status) throw CLI::RequiredError("--case");
+        auto const has = [&](char const* name)
+        { return std::find(encodings.begin(), encodings.end(), name) != encodings.end(); };
+        options.encodings = {.sparse = has("sparse"), .float32 = has("float32"), .lz4 = has("lz4")};
     }
     catch (CLI::ParseError const& error)
     {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/Case.hpp"
+#include "gimdem/coupling/CellRuns.hpp"
 #include "output/StepTrace.hpp"
 
 namespace gimdem::app
@@ -24,9 +25,10 @@ struct Options
     std::optional<std::filesystem::path> restart;  ///< checkpoint to go on from
     double grace_time = 0;                         ///< a lost client may come back within it [s]
     output::TraceChoice trace;
-    std::optional<std::string> status;  ///< ask the server at this endpoint how its run stands, and stop
-    bool json = false;                  ///< the answer for programs
-    double patience = 5;                ///< for the answer [s]
+    coupling::Encodings encodings{.sparse = true};  ///< of the fields, where the client can do them
+    std::optional<std::string> status;              ///< ask the server at this endpoint how its run stands, and stop
+    bool json = false;                              ///< the answer for programs
+    double patience = 5;                            ///< for the answer [s]
 };
 
 /// Empty when the program has nothing to do (help, version, wrong usage): exit_code tells the status.

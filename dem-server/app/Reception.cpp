@@ -14,8 +14,12 @@ namespace gimdem::app
 {
 
 Reception::Reception(Case const& settings, std::filesystem::path const& folder, RunEvents& events,
-                     coupling::Server::CheckpointSaver saver)
-    : settings_(settings), folder_(std::filesystem::absolute(folder)), events_(events), saver_(std::move(saver))
+                     coupling::Server::CheckpointSaver saver, coupling::Encodings const& encodings)
+    : settings_(settings),
+      folder_(std::filesystem::absolute(folder)),
+      events_(events),
+      saver_(std::move(saver)),
+      encodings_(encodings)
 {
     open(settings.coupling.endpoint, settings.coupling.connect_time);
 }
@@ -28,6 +32,7 @@ void Reception::open(std::string const& endpoint, double patience)
                                 .name = "gimdem-server " GIMDEM_VERSION,
                                 .timeout = settings_.coupling.timeout,
                                 .connect_time = patience,
+                                .encodings = encodings_,
                                 .keys = settings_.coupling.keys,
                                 .log = [events = &events_](std::string const& text) { events->warn("coupling", text); },
                                 .clock_origin = clock_origin()});

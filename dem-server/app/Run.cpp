@@ -79,7 +79,7 @@ void serve(Reception& reception, CoupledRun& run, std::optional<std::filesystem:
 }  // namespace
 
 void run(Case const& settings, std::filesystem::path const& folder, std::optional<std::filesystem::path> const& restart,
-         double grace_time, output::TraceChoice const& trace)
+         double grace_time, output::TraceChoice const& trace, coupling::Encodings const& encodings)
 {
     refuse_periodic_coupled_run(settings);
     std::filesystem::create_directories(folder);
@@ -87,7 +87,8 @@ void run(Case const& settings, std::filesystem::path const& folder, std::optiona
     Materials const materials(settings);
     ParticleState particles = checked_particles(settings, materials);
     std::unique_ptr<CoupledRun> coupled;
-    Reception reception(settings, folder, events, [&](auto const& request) { return coupled->save(request); });
+    Reception reception(
+        settings, folder, events, [&](auto const& request) { return coupled->save(request); }, encodings);
     events.say(
         "listening",
         fmt::format("{} particles, waiting for a client at {}", particles.count(), reception.server().endpoint()),

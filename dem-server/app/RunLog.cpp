@@ -37,16 +37,28 @@ double RunLog::sample(coupling::FluidState const& fluid, CoupledEngine const& en
         totals_.begin(fluid.step.time);
         series_.open(folder_ / "bed.csv", fluid);
     }
-    auto const due = [&](std::int64_t count, double interval) {
-        return interval > 0 && fluid.step.time - totals_.first_time() >= (static_cast<double>(count) - 1e-6) * interval;
-    };
-    if (due(rows_, settings_.output.sample_interval))
+    if (is_due(fluid.step.time, rows_, settings_.output.sample_interval))
     {
         series_.write_row(fluid, engine);
         ++rows_;
     }
-    if (due(frame_count_, settings_.output.particle_interval)) write_frame(fluid, engine);
+    if (frame_is_due_.value_or(is_due(fluid.step.time, frame_count_, settings_.output.particle_interval)))
+        write_frame(fluid, engine);
+    frame_is_due_.reset();
     return seconds_since(start);
+}
+
+/// Is the count-th of something due that is wanted every `interval`? Times in seconds.
+bool RunLog::is_due(double time, std::int64_t count, double interval) const
+{
+    double const since = series_.is_open() ? time - totals_.first_time() : 0;
+    return interval > 0 && since >= (static_cast<double>(count) - 1e-6) * interval;
+}
+
+bool RunLog::expects_frame(double time)
+{
+    frame_is_due_ = is_due(time, frame_count_, settings_.output.particle_interval);
+    return *frame_is_due_;
 }
 
 void RunLog::record(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine)

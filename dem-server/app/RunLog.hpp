@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "app/BedSeries.hpp"
 #include "app/RunTotals.hpp"
@@ -26,6 +27,11 @@ public:
 
     /// Before a step: particles and fluid are both at step.time. Writes what is due. Returns the seconds it took.
     double sample(coupling::FluidState const& fluid, CoupledEngine const& engine);
+
+    /// Will sample() write fields of all cells in the step that begins then [s]? It keeps to this answer.
+    bool expects_frame(double time);
+    /// The cells whose pressure and gradients it reads in every step.
+    std::vector<std::int32_t> monitored_cells() const { return series_.monitored_cells(); }
 
     /// After a step, which may still be repeated: accept() or the next record() decides.
     void record(coupling::FluidState const& fluid, StepReport const& report, CoupledEngine const& engine);
@@ -51,6 +57,7 @@ private:
         std::int64_t particle_clips = 0;
     };
 
+    bool is_due(double time, std::int64_t count, double interval) const;
     void write_frame(coupling::FluidState const& fluid, CoupledEngine const& engine);
     void add_weights(double inlet_area);
     double mean_diameter() const;
@@ -68,6 +75,7 @@ private:
     BedSeries series_;
     RunTotals totals_;
     std::int64_t rows_ = 0, frame_count_ = 0;
+    std::optional<bool> frame_is_due_;  ///< in the next step, as expects_frame() told
     std::optional<Pending> pending_;
     std::chrono::steady_clock::time_point start_;
 };

@@ -77,7 +77,8 @@ int main(int argc, char** argv)
         if (settings.run.client == "none")
             gimdem::app::run_alone(settings, options->run_folder, options->restart);
         else
-            gimdem::app::run(settings, options->run_folder, options->restart, options->grace_time, options->trace);
+            gimdem::app::run(settings, options->run_folder, options->restart, options->grace_time, options->trace,
+                             options->encodings);
         return 0;
     }
     catch (std::exception const& error)

@@ -64,7 +64,8 @@ CoupledEngine::CoupledEngine(Case const& settings, exec::Execution execution, Po
       system_(system),
       forces_(execution, settings.fluid_forces, settings.mapping.void_fraction_minimum, fluid),
       mapper_(execution, mesh, settings.mapping),
-      on_particles_{forces_, mesh, mapper_.cell_of(), void_fraction_}
+      on_particles_{forces_, mesh, mapper_.cell_of(), void_fraction_},
+      coverage_(mesh)
 {
     wall_faces_.resize(mesh.face_count());
     for (std::int32_t f = 0; f < mesh.face_count(); ++f)
@@ -125,17 +126,27 @@ StepReport CoupledEngine::map_initial_state()
     // The drag as it is now, as if it had acted for a second.
     system_.begin_coupling_step(&on_particles_);
     system_.take_impulses_of_one_second();
-    map_particles(1, fluid, report);
+    map_particles(
+        1, [&] { return fluid; }, report);
+    look_ahead();
     return report;
 }
 
-StepReport CoupledEngine::advance(coupling::Step const& step, coupling::FluidFields const& fluid)
+StepReport CoupledEngine::advance(coupling::Step const& step, coupling::FluidFields fluid,
+                                  std::function<coupling::FluidFields()> const& whole_fluid)
 {
     StepReport report;
     auto const start = std::chrono::steady_clock::now();
     report.dem_steps = std::max<std::int64_t>(1, std::llround(std::ceil(step.dt / settings_.dem.time_step - 1e-9)));
-    load_fluid(fluid);
+    auto const fetch = [&]
+    {
+        report.fluid_was_wanted = true;
+        fluid = whole_fluid();
+    };
+    bool const is_whole = !whole_fluid;
     insert_due(step.time);
+    if (!is_whole && !coverage_.has_loads(mapper_.cell_of().host())) fetch();
+    load_fluid(fluid);
     system_.begin_coupling_step(&on_particles_);
     system_.let_walls_move(true);
     report.pressure_force = constant(system_.steady_fluid_force());
@@ -144,8 +155,14 @@ StepReport CoupledEngine::advance(coupling::Step const& step, coupling::FluidFie
     report.timings.compute = seconds_since(start);
 
     auto const mapping_start = std::chrono::steady_clock::now();
-    map_particles(step.dt, fluid, report);
+    auto const fluid_at_drag = [&]
+    {
+        if (!is_whole && !report.fluid_was_wanted && !coverage_.has_velocity(has_drag_.host())) fetch();
+        return fluid;
+    };
+    map_particles(step.dt, fluid_at_drag, report);
     report.removed = remove_leavers();
+    look_ahead();
     report.timings.mapping = seconds_since(mapping_start);
     return report;
 }
@@ -191,12 +208,13 @@ coupling::SolidFields CoupledEngine::fields() const
     return fields;
 }
 
-void CoupledEngine::map_particles(double dt, coupling::FluidFields const& fluid, StepReport& report)
+void CoupledEngine::map_particles(double dt, std::function<coupling::FluidFields()> const& fluid, StepReport& report)
 {
     locate();
     sum_into_cells();
     compute_void_fraction(report);
-    compute_momentum_exchange(dt, fluid);
+    mark_cells();
+    compute_momentum_exchange(dt, fluid());
     check_balance(dt, report);
 }
 
@@ -217,6 +235,34 @@ void CoupledEngine::compute_void_fraction(StepReport& report)
     if (DeviceDem* const device = system_.device()) device->set_void_fraction(void_fraction_);
 }
 
+void CoupledEngine::mark_cells()
+{
+    has_solid_.resize(mesh_.cell_count());
+    has_drag_.resize(mesh_.cell_count());
+    for (std::int32_t c = 0; c < mesh_.cell_count(); ++c)
+    {
+        Quad const drag = sums_.drag[c];
+        has_drag_[c] = drag.w != 0;
+        has_solid_[c] = has_drag_[c] != 0 || void_fraction_[c] != 1 || drag.x != 0 || drag.y != 0 || drag.z != 0;
+    }
+}
+
+// A device keeps the places of its particles to itself: there the whole fluid is asked for.
+void CoupledEngine::look_ahead()
+{
+    if (system_.device() == nullptr) coverage_.look_ahead(mapper_.cell_of().host(), has_drag_.host());
+}
+
+coupling::StepCells CoupledEngine::step_cells(bool can_ask) const
+{
+    coupling::StepCells cells;
+    std::span<std::uint8_t const> const flags = has_solid_.host();
+    cells.solid = coupling::runs_where({flags.data(), flags.size()});
+    bool const may_come_anywhere = inlets_ != nullptr && !inlets_->empty() && !can_ask;
+    if (system_.device() == nullptr && !may_come_anywhere) cells.needed = coverage_.needed(!can_ask);
+    return cells;
+}
+
 // S = -(1/V) sum w F_d, K = (1/V) sum w k, and K u_p = S + K v with the fluid velocity v of the cell that the drag was
 // computed with, theory.md (C.2), (C.5)-(C.7).
 void CoupledEngine::compute_momentum_exchange(double dt, coupling::FluidFields const& fluid)
@@ -230,12 +276,14 @@ void CoupledEngine::compute_momentum_exchange(double dt, coupling::FluidFields c
     {
         double const per_volume = 1 / (dt * mesh_.volume(static_cast<std::int32_t>(c)));
         double const k = sums_.drag[c].w * per_volume;
-        Vec3 const source = -per_volume * sums_.drag[c].xyz();
+        // +0 where nothing is, and there no velocity is read.
+        Vec3 const source = has_solid_[c] != 0 ? Vec3(-per_volume * sums_.drag[c].xyz()) : Vec3::Zero();
+        bool const has_drag = has_drag_[c] != 0 && velocity != nullptr;
         drag_coefficient_[c] = k;
         for (int axis = 0; axis < 3; ++axis)
         {
             momentum_source_[3 * c + axis] = source[axis];
-            drag_momentum_[3 * c + axis] = source[axis] + (velocity == nullptr ? 0 : k * velocity[3 * c + axis]);
+            drag_momentum_[3 * c + axis] = source[axis] + (has_drag ? k * velocity[3 * c + axis] : 0);
         }
     }
 }

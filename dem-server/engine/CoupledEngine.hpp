@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "core/Case.hpp"
 #include "engine/DemSystem.hpp"
+#include "engine/FluidCoverage.hpp"
 #include "engine/MappedState.hpp"
 #include "engine/device/DeviceDem.hpp"
 #include "gimdem/coupling/Types.hpp"
@@ -21,6 +23,7 @@ namespace gimdem
 struct StepReport
 {
     std::int64_t dem_steps = 0;
+    bool fluid_was_wanted = false;  ///< cells were read that had not been asked for, and the whole fluid was fetched
     std::int64_t removed = 0;       ///< particles that left the mesh in this step; mapped a last time, then removed
     double momentum_imbalance = 0;  ///< |sum S V + sum F_d| / sum |F_d|, theory.md (C.3) [1]
     double volume_imbalance = 0;    ///< |sum solid V - sum V_p| / sum V_p [1]
@@ -47,7 +50,9 @@ public:
 
     /// Moves the particles t -> t + dt in the fluid of time t and maps them, theory.md (C.1)-(C.7). Takes the least
     /// whole number of equal DEM steps that are no longer than [dem] time_step.
-    StepReport advance(coupling::Step const& step, coupling::FluidFields const& fluid);
+    /// whole_fluid: where fluid has only the cells of step_cells(), gives it with all of them.
+    StepReport advance(coupling::Step const& step, coupling::FluidFields fluid,
+                       std::function<coupling::FluidFields()> const& whole_fluid = {});
 
     /// Keeps the state between two steps, for go_back().
     void remember();
@@ -57,6 +62,12 @@ public:
 
     /// The solid of the last step; spans live until the next one.
     coupling::SolidFields fields() const;
+
+    /// Which cells of the solid are to travel, and of the fluid of the next step. can_ask: advance() will be given a
+    /// whole_fluid that works.
+    coupling::StepCells step_cells(bool can_ask) const;
+    /// Cells whose pressure and gradients somebody else reads, too.
+    void monitor(std::span<std::int32_t const> cells) { coverage_.monitor(cells); }
 
     /// Particles that come during the run; `inlets` outlives the engine.
     void set_inlets(std::vector<Inlet>& inlets) { inlets_ = &inlets; }
@@ -79,9 +90,12 @@ private:
     void locate();
     void sum_into_cells();
     ImpulseSums impulse_sums() const;
-    void map_particles(double dt, coupling::FluidFields const& fluid, StepReport& report);
+    void map_particles(double dt, std::function<coupling::FluidFields()> const& fluid, StepReport& report);
     void compute_void_fraction(StepReport& report);
     void compute_momentum_exchange(double dt, coupling::FluidFields const& fluid);
+    void mark_cells();
+    void mark_resumed_cells();
+    void look_ahead();
     void check_balance(double dt, StepReport& report) const;
     void insert_due(double time);
     std::int64_t remove_leavers();
@@ -100,6 +114,8 @@ private:
     std::unique_ptr<StepMemory> memory_;
     std::int64_t clips_given_up_ = 0;  ///< counted in steps that were repeated
     exec::Buffer<double> void_fraction_, momentum_source_, drag_coefficient_, drag_momentum_;
+    exec::Buffer<std::uint8_t> has_solid_, has_drag_;  ///< flags of the cells
+    FluidCoverage coverage_;
 };
 
 }  // namespace gimdem

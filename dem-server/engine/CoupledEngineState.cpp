@@ -66,6 +66,21 @@ void CoupledEngine::resume(MappedState const& mapped)
     momentum_source_ = to_buffer(mapped.momentum_source);
     drag_momentum_ = to_buffer(mapped.drag_momentum);
     if (device != nullptr) device->set_void_fraction(void_fraction_);
+    mark_resumed_cells();
+    look_ahead();
+}
+
+void CoupledEngine::mark_resumed_cells()
+{
+    has_solid_.resize(mesh_.cell_count());
+    has_drag_.resize(mesh_.cell_count());
+    for (std::int64_t c = 0; c < mesh_.cell_count(); ++c)
+    {
+        has_drag_[c] = drag_coefficient_[c] != 0;
+        has_solid_[c] = has_drag_[c] != 0 || void_fraction_[c] != 1;
+        for (std::int64_t k = 3 * c; k < 3 * c + 3; ++k)
+            has_solid_[c] |= momentum_source_[k] != 0 || drag_momentum_[k] != 0;
+    }
 }
 
 }  // namespace gimdem

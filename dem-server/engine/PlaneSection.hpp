@@ -23,6 +23,13 @@ public:
     /// centroid to the middle of its section: shape=(n_cells, 3).
     double mean(std::span<double const> values, std::span<double const> gradient = {}) const;
 
+    /// Adds the cells that it cuts.
+    void list_cells(std::vector<std::int32_t>& cells) const
+    {
+        for (Part const& part : parts_)
+            cells.push_back(part.cell);
+    }
+
     double area() const { return area_; }  ///< [m^2]
 
 private:

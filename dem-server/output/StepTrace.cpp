@@ -72,13 +72,14 @@ StepTrace::StepTrace(std::filesystem::path const& file, double origin, TraceChoi
 
 bool StepTrace::wants(std::int64_t step) const
 {
-    bool const is_one = step > 0 && (step - 1) % choice_.every == 0;
-    return is_one && (step - 1) / choice_.every < choice_.steps;
+    std::int64_t const later = step - (first_ > 0 ? first_ : step);
+    return step > 0 && later >= 0 && later % choice_.every == 0 && later / choice_.every < choice_.steps;
 }
 
 void StepTrace::add(ServerStep const& step, std::vector<Counter> const& counters)
 {
     if (!wants(step.number)) return;
+    if (first_ == 0) first_ = step.number;
     double const start = coupling::clock_now();
     add_slices(server_row, slices_of(step), step.times.asked, step.done, step.number);
     for (Counter const& counter : counters)

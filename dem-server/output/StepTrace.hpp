@@ -43,7 +43,7 @@ std::vector<Slice> slices_of(coupling::ClientTimes const& times, coupling::Timin
 struct TraceChoice
 {
     std::int64_t steps = 0;  ///< so many, then no more; 0: none
-    std::int64_t every = 1;  ///< of the steps 1, 1 + every, 1 + 2 every, ...
+    std::int64_t every = 1;  ///< of the run's first step, the one so many later, ...
 };
 
 /// A named number at the end of a step.
@@ -71,6 +71,7 @@ private:
 
     TraceFile file_;
     TraceChoice choice_;
+    std::int64_t first_ = 0;  ///< step of the run; 0 before it
     double cost_ = 0;
 };
 

@@ -49,15 +49,15 @@ struct RewindScene
 {
     static constexpr int along = 4;
     static constexpr std::size_t cells = along * along * along;
-    static constexpr double height = 0.0126;  ///< [m]
-    static constexpr double dt = 2e-4;        ///< [s]
+    static constexpr double height = 0.01;  ///< [m]
+    static constexpr double dt = 2e-4;      ///< [s]
 
     /// 216 spheres that fly up through the open top, rain from above, and a floor that shakes.
     static Case made()
     {
         Case settings = DeviceScene::falling();
         settings.dem.time_step = 2e-5;
-        settings.dem.gravity = {0.5, 0.2, 300};
+        settings.dem.gravity = {0.5, 0.2, 4000};  // the top layer is out within a millisecond
         settings.mapping.void_fraction_minimum = 0.35;
         WallItemSettings floor;
         floor.name = "floor";
@@ -68,7 +68,7 @@ struct RewindScene
         InletSettings rain;
         rain.material = "bead";
         rain.mass_rate = 0.02;
-        rain.box = {{{0.001, 0.001, 0.0005}, {0.0115, 0.0115, 0.012}}};
+        rain.box = {{{0.001, 0.001, 0.0005}, {0.009, 0.009, 0.0095}}};
         rain.velocity = {0, 0, -0.5};
         rain.diameter = 4e-4;
         rain.interval = dt / 2;

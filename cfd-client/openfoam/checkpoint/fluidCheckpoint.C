@@ -13,6 +13,7 @@
 #include "argList.H"
 #include "IFstream.H"
 #include "OStringStream.H"
+#include "PstreamReduceOps.H"
 
 #include <algorithm>
 #include <vector>
@@ -138,17 +139,17 @@ std::optional<ResumePoint> Foam::fluidCheckpoint::resume
         return std::nullopt;
     }
 
-    if (Pstream::parRun())
-    {
-        FatalErrorInFunction
-            << "-restart with -parallel (checkpoints of several processes are"
-            << " not saved); run one process, or run the case from its start"
-            << exit(FatalError);
-    }
-
     const fileName path(runTime.path());
     const std::vector<Candidate> all(candidates(path));
     const Candidate one(choose(all, path, args.opt<word>("restart")));
+
+    if (returnReduce(one.index(), maxOp<label>()) != one.index())
+    {
+        FatalErrorInFunction
+            << "-restart: the newest whole time folder of this processor is "
+            << one.folder << ", and another one has a later one; name the folder"
+            << " that all have" << exit(FatalError);
+    }
 
     // What comes after it is written again, and is of no pair until then
     for (const Candidate& other : all)

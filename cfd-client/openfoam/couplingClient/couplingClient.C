@@ -442,12 +442,29 @@ bool Foam::couplingClient::iterate()
 
 void Foam::couplingClient::saveCheckpoint(resumableTime& runTime)
 {
-    if (client_.welcome().saves_checkpoints)
+    // Of several processors the master is told, and asks for all
+    bool saves = client_.welcome().saves_checkpoints;
+    Pstream::scatter(saves);
+
+    if (saves)
     {
-        const SavedCheckpoint saved
-        (
-            client_.save_checkpoint(runTime.value(), completeStep_)
-        );
+        stringList told(3);
+        if (Pstream::master())
+        {
+            const SavedCheckpoint saved
+            (
+                client_.save_checkpoint(runTime.value(), completeStep_)
+            );
+            told[0] = std::to_string(saved.session);
+            told[1] = std::to_string(saved.step);
+            told[2] = saved.name;
+        }
+        Pstream::scatter(told);
+
+        SavedCheckpoint saved;
+        saved.session = std::stoull(told[0]);
+        saved.step = std::stoll(told[1]);
+        saved.name = told[2];
         fluidCheckpoint::complete(runTime, saved);
         completeStep_ = saved.step;
     }

@@ -16,10 +16,10 @@ fluid. Schedule iterated: iterate_step() between begin_step() and end_step() rep
 """
 from .client import Client
 from .errors import CouplingError, Fault
-from .types import (ClientOptions, ExchangeTimes, FluidFields, FluidProperties, Iteration, Mesh, Monitor, Patch, SolidFields,
-                    Step, Timings, Welcome)
+from .types import (ClientOptions, ExchangeTimes, FluidFields, FluidProperties, Iteration, Mesh, Monitor, Patch, ResumePoint,
+                    SavedCheckpoint, SolidFields, Step, Timings, Welcome)
 
 __all__ = [
     "Client", "ClientOptions", "CouplingError", "ExchangeTimes", "Fault", "FluidFields", "FluidProperties", "Iteration",
-    "Mesh", "Monitor", "Patch", "SolidFields", "Step", "Timings", "Welcome",
+    "Mesh", "Monitor", "Patch", "ResumePoint", "SavedCheckpoint", "SolidFields", "Step", "Timings", "Welcome",
 ]

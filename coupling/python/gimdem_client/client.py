@@ -14,13 +14,13 @@ from .errors import CouplingError, Fault
 from .keys import read_keys
 from .record import StepRecord
 from .types import (FLUID_FIELDS, SCHEDULES, SOLID_FIELDS, ClientOptions, ExchangeTimes, FluidFields, FluidProperties,
-                    Iteration, Mesh, Monitor, SolidFields, Step, Timings, Welcome)
+                    Iteration, Mesh, Monitor, SavedCheckpoint, SolidFields, Step, Timings, Welcome)
 from .wire import MAJOR, MINOR, Envelope
 
 LINGER = 1.0  # for the last words to leave [s]
 # In which state each call is legal.
 LEGAL = {
-    "connect": ("created",), "send_mesh": ("welcomed",), "begin_step": ("ready",),
+    "connect": ("created",), "send_mesh": ("welcomed",), "begin_step": ("ready",), "save_checkpoint": ("ready",),
     "iterate_step": ("iterating",), "end_step": ("solving", "overlapping", "iterating"),
     "finish": ("created", "welcomed", "ready", "solving", "overlapping", "iterating", "finished"),
 }
@@ -78,6 +78,9 @@ class Client:
         hello.schedule = SCHEDULES.get(options.schedule or "", 0)
         hello.timeout = options.timeout
         hello.iterates = options.iterates
+        if options.resume:
+            hello.resume.session, hello.resume.step = options.resume.session, options.resume.step
+            hello.resume.time = options.resume.time
         self._record.stamp(hello)
         self._sent_at = time.monotonic()
         self._send(envelope)
@@ -128,6 +131,21 @@ class Client:
             waiting = self._count(entered, min(busy, max(0.0, arrival - entered)))
         self._record.ended(entered, time.monotonic(), waiting)
         self._advance("ready")
+
+    def save_checkpoint(self, time_now: float, complete_step: int = 0) -> SavedCheckpoint:
+        """Has the server save its state of now; returns when that is safe on disk. The fluid's state of now belongs to it:
+        write it, then remember what is returned, for ClientOptions.resume. time_now: where the last step ended.
+        complete_step: step of the newest checkpoint to which a fluid is whole, 0: none."""
+        self._require("save_checkpoint")
+        if not self.welcome.saves_checkpoints:
+            raise messages.user_fault("this server saves no checkpoints (Welcome.saves_checkpoints); go on without")
+        envelope = Envelope()
+        envelope.checkpoint.time, envelope.checkpoint.complete_step = time_now, complete_step
+        self._advance("saving")
+        self._send(envelope)
+        saved = self._receive("checkpoint_saved")[0].checkpoint_saved
+        self._advance("ready")
+        return SavedCheckpoint(self._session, saved.step, saved.time, saved.name)
 
     def finish(self, reason: str) -> None:
         """Orderly end: Goodbye."""
@@ -196,7 +214,8 @@ class Client:
         how = told.iteration
         iteration = Iteration(how.tolerance, how.max_passes, how.relaxation, how.must_converge)
         return Welcome(told.server, told.title, schedules[told.schedule], told.end_time, list(told.needs),
-                       max(1, told.fluid_steps), iteration if schedules[told.schedule] == "iterated" else None)
+                       max(1, told.fluid_steps), iteration if schedules[told.schedule] == "iterated" else None,
+                       told.saves_checkpoints)
 
     def _take_solid(self) -> tuple[float, float]:
         """Receives the solid of the current step; returns how long the server was busy [s], and when it arrived."""

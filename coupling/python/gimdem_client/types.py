@@ -16,6 +16,25 @@ SOLID_FIELDS = {"void_fraction": 1, "momentum_source": 3, "drag_coefficient": 1,
 
 
 @dataclass
+class ResumePoint:
+    """Where a client goes on that stopped before; from a SavedCheckpoint."""
+
+    session: int
+    step: int
+    time: float  # of the fluid [s]
+
+
+@dataclass
+class SavedCheckpoint:
+    """What the server has saved."""
+
+    session: int
+    step: int  # the server's count, which goes on over restarts
+    time: float  # of the particles [s]
+    name: str  # of the file, without its folder
+
+
+@dataclass
 class ClientOptions:
     endpoint: str  # "ipc:///path/socket" or "tcp://127.0.0.1:port"
     name: str  # who we are, for messages and logs
@@ -25,6 +44,7 @@ class ClientOptions:
     schedule: Optional[str] = None  # "serial", "overlapped", "iterated"; None: the server's case file decides
     wants: Sequence[str] = ("void_fraction", "drag_coefficient", "drag_momentum")  # solid fields to receive
     iterates: bool = False  # the program calls iterate_step() if the schedule is iterated
+    resume: Optional[ResumePoint] = None  # where to go on; None: a run begins
     keys: str = ""  # folder of keys, docs/security.md; empty: none, and this machine only
 
 
@@ -55,6 +75,7 @@ class Welcome:
     needs: list[str] = field(default_factory=list)  # fluid fields that this scene needs
     fluid_steps: int = 1  # equal fluid steps that a coupling step should have
     iteration: Optional[Iteration] = None  # of schedule iterated
+    saves_checkpoints: bool = False  # save_checkpoint() is possible
 
 
 @dataclass

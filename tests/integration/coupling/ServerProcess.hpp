@@ -68,7 +68,12 @@ class ServerProcess
 public:
     /// given: an endpoint that it may choose the port of.
     explicit ServerProcess(std::string const& given, SmallCase const& settings = {})
-        : process_(command(folder_, given, settings), folder_ / "output.txt")
+        : ServerProcess(given, settings.text(), settings.arguments)
+    {
+    }
+    /// The same with a case file of this text.
+    ServerProcess(std::string const& given, std::string const& text, std::vector<std::string> const& arguments = {})
+        : process_(command(folder_, given, text, arguments), folder_ / "output.txt")
     {
     }
 
@@ -108,12 +113,12 @@ public:
 
 private:
     static std::vector<std::string> command(TemporaryFolder const& folder, std::string const& endpoint,
-                                            SmallCase const& settings)
+                                            std::string const& text, std::vector<std::string> const& arguments)
     {
-        std::ofstream(folder / "case.toml") << settings.text();
+        std::ofstream(folder / "case.toml") << text;
         std::vector<std::string> all{GIMDEM_SERVER, "--case", folder / "case.toml", "--run", folder / "run",
                                      "--endpoint",  endpoint};
-        all.insert(all.end(), settings.arguments.begin(), settings.arguments.end());
+        all.insert(all.end(), arguments.begin(), arguments.end());
         return all;
     }
 

@@ -73,7 +73,6 @@ class Traces(RealCaseTest):
         counters = {event["name"] for event in events_of(self.run_folder / "trace.json") if event["ph"] == "C"}
         self.assertEqual(counters, {"void_fraction_min", "courant_max", "particle_steps_per_second"})
         self.assertGreater(figures["trace_cost"], 0)
-        self.assertLess(figures["trace_cost"], 0.5, "of 20 steps of some milliseconds")
 
     def check_order(self, schedule: str) -> None:
         """Both rows are on one clock: in a serial run the particles move while the client waits."""

@@ -72,7 +72,9 @@ TEST(LagError, IsWhatOneStepOfTheOverlappedScheduleDiffersBy)
         // All particles do the same: the norm over the cells is that of each. They are mapped into eight cells with
         // weights that differ in the last digits.
         if (n > 0)
+        {
             EXPECT_NEAR(lag.force * std::abs(serial_step) / std::abs(serial_step - overlapped_step), 1, 1e-6) << n;
+        }
         velocity += serial_step;
     }
 }

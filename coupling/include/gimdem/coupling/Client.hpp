@@ -27,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include "gimdem/coupling/CellRuns.hpp"
 #include "gimdem/coupling/Checkpoint.hpp"
 #include "gimdem/coupling/Error.hpp"
 #include "gimdem/coupling/Types.hpp"
@@ -44,9 +45,10 @@ struct ClientOptions
     std::optional<Schedule> schedule;  ///< ask for one; left empty, the server's case file decides
     std::vector<std::string> wants;  ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
     bool shared_memory = true;       ///< over ipc, let large fields travel through shared memory if the server can
-    std::optional<ResumePoint> resume;  ///< where to go on; left empty: a run begins
-    bool iterates = false;              ///< the program calls iterate_step() if the schedule is iterated
-    Rank rank;                          ///< of a fluid that several processes solve together
+    Encodings encodings{true, true, true};  ///< those that the server may choose
+    std::optional<ResumePoint> resume;      ///< where to go on; left empty: a run begins
+    bool iterates = false;                  ///< the program calls iterate_step() if the schedule is iterated
+    Rank rank;                              ///< of a fluid that several processes solve together
     std::string keys;  ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
 };
 
@@ -62,6 +64,7 @@ struct Welcome
     int fluid_steps = 1;                      ///< equal fluid steps that a coupling step should have
     Iteration iteration;                      ///< of schedule iterated
     std::vector<std::string> rank_endpoints;  ///< to rank 0 of several: where ranks 1, 2, ... connect
+    Encodings encodings = {};                 ///< in force
     bool needs_field(std::string const& name) const;
 };
 
@@ -88,7 +91,8 @@ public:
     void send_mesh(MeshView const& mesh);
 
     /// @pre send_mesh() or end_step() has been called. Returns the solid that the fluid step must use; its spans live
-    /// until the next begin_step or end_step. Sizes of the fields are checked; a NaN or infinity in one is Fault::user.
+    /// until the next begin_step or end_step. Sizes of the fields are checked; a NaN or infinity in what is sent is
+    /// Fault::user. Where the server needs only some cells, only these are sent.
     SolidFields const& begin_step(Step const& step, FluidFields const& fluid,
                                   std::vector<Monitor> const& monitors = {});
 

@@ -25,6 +25,7 @@
 #include <string>
 #include <vector>
 
+#include "gimdem/coupling/CellRuns.hpp"
 #include "gimdem/coupling/Checkpoint.hpp"
 #include "gimdem/coupling/Error.hpp"
 #include "gimdem/coupling/Status.hpp"
@@ -42,7 +43,8 @@ struct ServerOptions
     double connect_time = 120;  ///< how long to wait for a client [s]
     double step_time = 3600;    ///< longest wait for the next message of a live client [s]
     bool shared_memory = true;  ///< over ipc, let large fields travel through shared memory if the client can
-    std::string keys;           ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
+    Encodings encodings{true, false, false};  ///< in force if the client can do them
+    std::string keys;  ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
     /// Told what a user may like to know, such as who was turned away; on another thread, and it must not block.
     std::function<void(std::string const&)> log;
     double clock_origin = 0;  ///< when the run began, by clock_now() [s]; 0: now
@@ -85,6 +87,7 @@ struct FluidState
     double residual = 0;  ///< of the pass before, relative; schedule iterated
     ClientTimes previous_times = {};                  ///< when the client's previous step did what; step 0: not told
     std::optional<ClockOffset> clock = std::nullopt;  ///< by the client's latest estimate
+    bool is_complete = true;                          ///< false: cells that the last StepCells left out hold 0
 };
 
 class Server
@@ -113,7 +116,7 @@ public:
     Mesh receive_mesh();
 
     /// @pre receive_mesh. Sends MeshAccepted and the solid at t = 0. Only the fields the client wants are sent.
-    void accept_mesh(SolidFields const& initial, Timings const& timings = {});
+    void accept_mesh(SolidFields const& initial, Timings const& timings = {}, StepCells const& cells = {});
 
     /// Refuse the mesh with a reason; the session is over.
     void reject_mesh(std::string const& why);
@@ -122,8 +125,12 @@ public:
     std::optional<FluidState> receive_fluid();
     std::string const& goodbye_reason() const;
 
+    /// @pre receive_fluid, and the client keeps to the serial schedule. Asks for the fields of all cells of that fluid;
+    /// afterwards it is complete. Takes a round trip.
+    void complete(FluidState& fluid);
+
     /// @pre receive_fluid. Answers it.
-    void send_solid(SolidFields const& fields, Timings const& timings);
+    void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells = {});
 
     /// The session is over because the client is gone, silent or slow, not because it said why.
     bool has_lost_client() const;

@@ -82,6 +82,15 @@ extern "C"
 
     typedef struct gimdem_client gimdem_client;
 
+    /* Where a client goes on that stopped before; from gimdem_saved_checkpoint. */
+    typedef struct gimdem_resume_point
+    {
+        size_t struct_size;
+        uint64_t session;
+        int64_t step;
+        double time; /* of the fluid [s] */
+    } gimdem_resume_point;
+
     /* Fill it with gimdem_client_options_init(), then set what should differ. */
     typedef struct gimdem_client_options
     {
@@ -93,7 +102,8 @@ extern "C"
         double step_time;         /* longest wait for the answer of a live server, 0: 3600 [s] */
         char const* const* wants; /* names of solid fields; NULL: void_fraction, drag_coefficient, drag_momentum */
         size_t want_count;
-        char const* keys;         /* folder of keys, docs/security.md; NULL: none, and this machine only */
+        char const* keys;                  /* folder of keys, docs/security.md; NULL: none, and this machine only */
+        gimdem_resume_point const* resume; /* where to go on; NULL: a run begins */
         uint64_t run;             /* where rank_count > 1: a random number, not 0, that rank 0 tells the others */
         int32_t schedule;         /* GIMDEM_SCHEDULE_... */
         int32_t no_shared_memory; /* 1: plain frames over ipc too */
@@ -122,12 +132,14 @@ extern "C"
         size_t need_count;
         char const* const* rank_endpoints; /* to rank 0 of several: where ranks 1, 2, ... connect */
         size_t rank_endpoint_count;
-        double tolerance;      /* schedule iterated: relative residual at which a step is accepted */
-        double relaxation;     /* schedule iterated: factor of the first pass */
-        int32_t max_passes;    /* schedule iterated: of a step */
-        int32_t must_converge; /* schedule iterated: 0: a step that did not is accepted as it is */
-        int32_t schedule;      /* in force */
-        int32_t fluid_steps;   /* equal fluid steps that a coupling step should have */
+        double tolerance;          /* schedule iterated: relative residual at which a step is accepted */
+        double relaxation;         /* schedule iterated: factor of the first pass */
+        int32_t max_passes;        /* schedule iterated: of a step */
+        int32_t must_converge;     /* schedule iterated: 0: a step that did not is accepted as it is */
+        int32_t schedule;          /* in force */
+        int32_t fluid_steps;       /* equal fluid steps that a coupling step should have */
+        int32_t saves_checkpoints; /* 1: gimdem_client_save_checkpoint() is possible */
+        int32_t reserved;
     } gimdem_welcome;
 
     /* One boundary patch: a run of boundary faces. */
@@ -201,6 +213,16 @@ extern "C"
         double value;
     } gimdem_monitor;
 
+    /* What the server has saved. */
+    typedef struct gimdem_saved_checkpoint
+    {
+        size_t struct_size;
+        uint64_t session;
+        int64_t step;
+        double time;      /* of the particles [s] */
+        char const* name; /* of the file, without its folder; lives until the next checkpoint */
+    } gimdem_saved_checkpoint;
+
     /* Where the fluid step spent its wall time, and how well an iterated one converged. */
     typedef struct gimdem_timings
     {
@@ -254,6 +276,14 @@ extern "C"
 
     /* After the fluid step. timings may be NULL. */
     GIMDEM_CLIENT_API gimdem_status gimdem_client_end_step(gimdem_client* client, gimdem_timings const* timings);
+
+    /* Between two steps, where the server saves checkpoints: has it save its state of now; returns when that is safe on
+     * disk. The fluid's state of now belongs to it: write it, then remember *saved, for gimdem_client_options.resume.
+     * time: where the last step ended. complete_step: step of the newest checkpoint to which a fluid is whole, 0: none.
+     */
+    GIMDEM_CLIENT_API gimdem_status gimdem_client_save_checkpoint(gimdem_client* client, double time,
+                                                                  int64_t complete_step,
+                                                                  gimdem_saved_checkpoint* saved);
 
     /* The last solid received. */
     GIMDEM_CLIENT_API gimdem_status gimdem_client_solid(gimdem_client* client, gimdem_solid_fields* solid);

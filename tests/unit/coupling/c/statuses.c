@@ -201,6 +201,15 @@ static void check_no_memory(void)
     free(name);
 }
 
+static void check_checkpoint(gimdem_client* client)
+{
+    gimdem_saved_checkpoint saved = {0};
+    EXPECT_ERROR(gimdem_client_save_checkpoint(client, 1e-3, 0, NULL), GIMDEM_ERROR_USER, "saved_checkpoint is NULL");
+    saved.struct_size = sizeof saved;
+    EXPECT(gimdem_client_save_checkpoint(client, 1e-3, 0, &saved) == GIMDEM_OK);
+    EXPECT(saved.step == 1 && saved.time == 1e-3 && saved.session != 0 && strcmp(saved.name, "none.h5") == 0);
+}
+
 /* After the first step, which must succeed: mistakes that end nothing. */
 static void check_mistakes_in_session(gimdem_client* client, gimdem_solid_fields* solid)
 {
@@ -225,7 +234,7 @@ static gimdem_status session(gimdem_client* client)
 {
     const gimdem_fluid_properties properties = {sizeof properties, 1.2, 1.8e-5};
     const gimdem_monitor monitor = {"steps", "1", 1};
-    const gimdem_timings timings = {sizeof timings, 0.1, 0};
+    const gimdem_timings timings = {sizeof timings, 0.1, 0, 0};
     const gimdem_fluid_fields fluid = rest();
     const gimdem_mesh mesh = cube();
     gimdem_welcome welcome = {0};
@@ -236,6 +245,7 @@ static gimdem_status session(gimdem_client* client)
     solid.struct_size = sizeof solid;
     if ((status = gimdem_client_connect(client, &properties, &welcome)) != GIMDEM_OK) return status;
     EXPECT(welcome.schedule == GIMDEM_SCHEDULE_SERIAL && welcome.need_count == 5);
+    EXPECT(strcmp(welcome.title, "a mock without particles") == 0);
     EXPECT(strcmp(welcome.server, "gimdem-mock-server") == 0 && strcmp(welcome.needs[0], "velocity") == 0);
     if ((status = gimdem_client_send_mesh(client, &mesh)) != GIMDEM_OK) return status;
     for (n = 1; n <= 5; ++n)
@@ -245,6 +255,7 @@ static gimdem_status session(gimdem_client* client)
         EXPECT(solid.cell_count == 1 && solid.void_fraction[0] == 0.6 && solid.momentum_source == NULL);
         if ((status = gimdem_client_end_step(client, &timings)) != GIMDEM_OK) return status;
         if (n == 1) check_mistakes_in_session(client, &solid);
+        if (n == 1) check_checkpoint(client);
     }
     return gimdem_client_finish(client, "all steps done");
 }

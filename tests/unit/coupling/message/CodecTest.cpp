@@ -93,7 +93,14 @@ std::vector<Damage> const damages{
     {"NoType", [](auto& m) { first_header(m).clear_type(); }, Fault::protocol, "unknown element type"},
     {"FutureType", [](auto& m) { first_header(m).set_type(static_cast<v1::ElementType>(99)); }, Fault::protocol,
      "unknown element type"},
-    {"Sparse", [](auto& m) { first_header(m).set_dense(false); }, Fault::protocol, "sparse"},
+    {"CompressedInSharedMemory",
+     [](auto& m)
+     {
+         first_header(m).set_compression(v1::COMPRESSION_SHUFFLED_LZ4);
+         first_header(m).set_shared(true);
+         m.arrays[0].clear();
+     },
+     Fault::protocol, "compressed and in shared memory"},
     {"NoName", [](auto& m) { first_header(m).clear_name(); }, Fault::protocol, "name of an array is empty"},
     {"LongName", [](auto& m) { first_header(m).set_name(std::string(300, 'n')); }, Fault::protocol, "300 bytes"},
     {"NameTwice", [](auto& m) { first_header(m).set_name("drag_momentum"); }, Fault::protocol, "comes twice"},

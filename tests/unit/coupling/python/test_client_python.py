@@ -97,6 +97,9 @@ class ClientInPython(unittest.TestCase):
         solid = client.begin_step(Step(1, 0, 1e-3), fluid(), [Monitor("x", 1.0, "m")])
         self.assertEqual(solid.drag_momentum.tolist(), [[0, 0, 2.5]])  # KnownSolid after step 1: 2 (1 + 1/4)
         client.end_step()
+        saved = client.save_checkpoint(1e-3)
+        self.assertEqual((saved.step, saved.time, saved.name), (1, 1e-3, "none.h5"))
+        self.assertNotEqual(saved.session, 0)
         client.finish("done")
         self.assertGreater(client.exchange_times.bytes, 0)
 

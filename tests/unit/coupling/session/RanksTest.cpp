@@ -147,6 +147,38 @@ TEST(Ranks, UseSharedMemory)
     EXPECT_EQ(server.shared_memory_note(), "");
 }
 
+TEST(Ranks, RankZeroHasTheServerSaveForAll)
+{
+    Server server(server_options(unused_ipc_endpoint()));
+    std::vector<double> saved;
+    server.save_checkpoints_by(
+        [&](CheckpointRequest const& request)
+        {
+            saved.push_back(request.time);
+            return SavedCheckpoint{.session = 0, .step = 1, .time = request.time, .name = "first"};
+        });
+    auto served = in_background([&] { return serve(server, Schedule::serial); });
+    RankedClient client(server.endpoint(), 2);
+    client.connect_first();
+
+    auto const words = client.on_all(
+        [&](std::size_t rank)
+        {
+            client.begin(rank);
+            client.step_of(rank, 1);
+            client.clients[rank].end_step();
+            EXPECT_EQ(client.clients[rank].welcome().saves_checkpoints, rank == 0);
+            if (rank == 0) EXPECT_EQ(client.clients[0].save_checkpoint(1e-3, 0).name, "first");
+            client.step_of(rank, 2);
+            client.clients[rank].end_step();
+            client.clients[rank].finish("done");
+        });
+    served.get();
+
+    EXPECT_THAT(words, testing::Each("(nothing)"));
+    EXPECT_EQ(saved, std::vector<double>{1e-3});
+}
+
 TEST(Ranks, AMistakeInTheSolidReachesNoRank)
 {
     Server server(server_options(unused_ipc_endpoint()));

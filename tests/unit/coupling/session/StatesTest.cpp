@@ -62,6 +62,7 @@ std::vector<Path> const server_paths{
     {State::meshing, {Event::hello, Event::mesh}},
     {State::ready, {Event::hello, Event::mesh, Event::accept_mesh}},
     {State::computing, {Event::hello, Event::mesh, Event::accept_mesh, Event::fluid_state}},
+    {State::completing, {Event::hello, Event::mesh, Event::accept_mesh, Event::fluid_state, Event::complete}},
     {State::saving, {Event::hello, Event::mesh, Event::accept_mesh, Event::checkpoint}}};
 
 /// The rules once more, from docs/protocol.md: the only messages that a state takes, and where they lead.
@@ -70,14 +71,24 @@ using Allowed = std::map<std::pair<State, std::string>, State>;
 Allowed const client_allows{
     {{State::greeting, "Welcome"}, State::welcomed},    {{State::meshing, "MeshAccepted"}, State::accepted},
     {{State::accepted, "SolidState"}, State::ready},    {{State::waiting, "SolidState"}, State::solving},
-    {{State::overlapping, "SolidState"}, State::ready}, {{State::awaiting, "SolidState"}, State::iterating},
+    {{State::waiting, "FluidWanted"}, State::waiting},
+    {{State::overlapping, "SolidState"}, State::ready},
+    {{State::awaiting, "SolidState"}, State::iterating},
     {{State::saving, "CheckpointSaved"}, State::ready}};
 
 Allowed const server_allows{
     {{State::listening, "Hello"}, State::welcomed},   {{State::welcomed, "Mesh"}, State::meshing},
+    {{State::completing, "FluidState"}, State::computing},
     {{State::ready, "FluidState"}, State::computing}, {{State::welcomed, "Goodbye"}, State::finished},
     {{State::meshing, "Goodbye"}, State::finished},   {{State::ready, "Goodbye"}, State::finished},
     {{State::computing, "Goodbye"}, State::finished}, {{State::ready, "Checkpoint"}, State::saving}};
+
+RawMessage raw_fluid_wanted()
+{
+    RawMessage message;
+    message.envelope.mutable_fluid_wanted();
+    return message;
+}
 
 std::map<std::string, RawMessage> every_message()
 {
@@ -88,6 +99,7 @@ std::map<std::string, RawMessage> every_message()
             {"MeshAccepted", test::raw_mesh_accepted(mesh.cell_count)},
             {"FluidState", test::raw_fluid(1, 0, 1e-3, mesh.cell_count)},
             {"SolidState", test::raw_solid(1, mesh.cell_count)},
+            {"FluidWanted", raw_fluid_wanted()},
             {"Checkpoint", test::raw_checkpoint()},
             {"CheckpointSaved", test::raw_checkpoint_saved()},
             {"Goodbye", test::raw_goodbye()},
@@ -276,7 +288,8 @@ std::map<State, std::vector<Event>> const server_calls{{State::listening, {Event
                                                        {State::welcomed, {Event::receive_mesh}},
                                                        {State::meshing, {Event::accept_mesh, Event::reject_mesh}},
                                                        {State::ready, {Event::receive_fluid}},
-                                                       {State::computing, {Event::send_solid}},
+                                                       {State::computing, {Event::complete, Event::send_solid}},
+                                                       {State::completing, {}},
                                                        {State::saving, {Event::checkpoint_is_saved}},
                                                        {State::finished, {Event::receive_fluid}},
                                                        {State::failed, {}}};

@@ -8,9 +8,11 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "Faults.hpp"
+#include "KeyFolder.hpp"
 #include "Pair.hpp"
 #include "RawMessages.hpp"
 
@@ -211,6 +213,19 @@ TEST(StatusQuery, TellsWhoIsNoServer)
     auto hung_up = in_background([&] { other.hang_up(); });
     EXPECT_FAULT(query_status(other.endpoint(), patient), Fault::protocol, "does not speak ZeroMQ");
     hung_up.get();
+}
+
+TEST(StatusQuery, OpensAServerWithKeysByTheKeysOfItsClient)
+{
+    KeyFolder const ours, others;
+    ServerOptions options = server_options(unused_ipc_endpoint());
+    options.keys = ours.path();
+    Server const server(options);
+    EXPECT_EQ(query_status(server.endpoint(), patient, ours.path()).state, "listening");
+    EXPECT_FAULT(query_status(server.endpoint(), patient), Fault::user, "does not let us in");
+    // ZeroMQ tells a client that trusts another server nothing: the handshake does not come to an end.
+    EXPECT_THAT(thrown_by([&] { query_status(server.endpoint(), 1, others.path()); }),
+                testing::Not(testing::HasSubstr("(nothing)")));
 }
 
 TEST(StatusQuery, TellsOfServersOfOtherVersions)

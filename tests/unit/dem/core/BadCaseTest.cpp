@@ -112,7 +112,7 @@ Mistake const mistakes[] = {
 
     // words
     {"UnknownSchedule", "schedule = \"serial\"", "schedule = \"overlaped\"",
-     "case.toml:7: \"schedule\" in [coupling] is \"overlaped\" (must be serial | overlapped); did you mean \"overlapped\"?"},
+     "case.toml:7: \"schedule\" in [coupling] is \"overlaped\" (must be serial | overlapped | iterated); did you mean \"overlapped\"?"},
     {"UnknownBackend", "backend = \"serial\"", "backend = \"abacus\"",
      "case.toml:14: \"backend\" in [dem] is \"abacus\" (must be serial | openmp | cuda); write e.g. backend = \"openmp\""},
     {"UnknownMethod", "\"gim\"", "\"gmi\"",

@@ -187,7 +187,7 @@ TEST(CaseFile, DocumentationListsUnitRangeAndDefault)
 
     EXPECT_THAT(text, HasSubstr("## `[[materials]]`"));
     EXPECT_THAT(text, HasSubstr("| `density` | kg/m^3 | > 0 | required | mass per volume of a particle |"));
-    EXPECT_THAT(text, HasSubstr("| `schedule` |  | serial \\| overlapped | `\"serial\"` |"));
+    EXPECT_THAT(text, HasSubstr("| `schedule` |  | serial \\| overlapped \\| iterated | `\"serial\"` |"));
     EXPECT_THAT(text, HasSubstr("## `[[output.planes]]`"));
 }
 

@@ -10,12 +10,9 @@ namespace
 using namespace gimdem;
 using namespace gimdem::test;
 
-exec::Execution const two_threads{exec::Backend::openmp, 2};
-
 TEST(GoBack, LeavesNoTraceOfThePassesThatWereGivenUp)
 {
-    for (auto const& execution : {serial, two_threads})
-        expect_passes_leave_no_trace(execution, RewindScene::made(), false);
+    expect_passes_leave_no_trace(serial, RewindScene::made(), false);
 }
 
 TEST(GoBack, PutsBackRollingSpringsAndReferencesOfWeights)

@@ -143,6 +143,20 @@ TEST(StepTraceFile, HoldsSoManyStepsAndNoMore)
     EXPECT_EQ(events_in(test::read_text(folder / "trace.json")), 4 + 3 * 7);
 }
 
+TEST(StepTraceFile, CountsFromTheFirstStepOfARestartedRun)
+{
+    test::Folder const folder;
+    StepTrace trace(folder / "trace.json", 100, {2, 5}, "client");
+    std::vector<std::int64_t> wanted;
+    for (std::int64_t step = 3001; step < 3100; ++step)
+    {
+        if (trace.wants(step)) wanted.push_back(step);
+        trace.add(server_step(step), {});
+    }
+    EXPECT_EQ(wanted, (std::vector<std::int64_t>{3001, 3006}));
+    EXPECT_FALSE(trace.wants(3000));
+}
+
 TEST(StepTraceFile, EndsOnAFullDiskAndTheRunGoesOn)
 {
     test::Folder const folder;
