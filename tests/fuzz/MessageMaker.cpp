@@ -6,6 +6,11 @@
 #include <string>
 #include <vector>
 
+#include <google/protobuf/stubs/common.h>
+#if GOOGLE_PROTOBUF_VERSION < 4000000
+#include <google/protobuf/stubs/logging.h>
+#endif
+
 #include "BoxMesh.hpp"
 #include "RawMessages.hpp"
 
@@ -173,6 +178,9 @@ RawMessage make_message(Truth const& truth, Bytes& input)
 
 coupling::transport::Frames frames_of(RawMessage const& message, Bytes& input)
 {
+#if GOOGLE_PROTOBUF_VERSION < 4000000
+    static google::protobuf::LogSilencer const silence;  // about texts that are no UTF-8: we know
+#endif
     std::vector<std::string> texts = message.frames();
     for (unsigned mistakes = input.choose(3); mistakes > 0 && !input.empty() && !texts.empty(); --mistakes)
     {

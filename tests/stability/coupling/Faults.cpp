@@ -53,7 +53,7 @@ public:
 
     bool coin() { return random_() % 2 == 0; }
     int any(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
-    unsigned number() { return random_(); }
+    unsigned number() { return static_cast<unsigned>(random_()); }
     void nap(int most_milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(any(most_milliseconds))); }
 
     std::string start_server(double timeout, bool ipc, std::string const& answer_time = "0",

@@ -41,7 +41,11 @@ inline coupling::ClientOptions storm_client(std::string const& endpoint, double 
 /// Answers every fluid until Goodbye. before_answer: the work of the particles.
 inline void serve(coupling::Server& server, std::function<void()> const& before_answer = {})
 {
-    server.wait_for_client({"a storm", coupling::Schedule::serial, 1, {coupling::field::velocity}});
+    coupling::ServerTerms terms;
+    terms.title = "a storm";
+    terms.end_time = 1;
+    terms.needs = {coupling::field::velocity};
+    server.wait_for_client(terms);
     auto const cells = static_cast<std::size_t>(server.receive_mesh().cell_count);
     std::vector<double> const ones(3 * cells, 1.0);
     coupling::SolidFields fields;
