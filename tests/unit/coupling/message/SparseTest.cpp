@@ -219,11 +219,11 @@ TEST(SparseRefusal, RunsThatCannotBe)
              {{}, 2, "does not tell its cells"},
              {{10, 2, 12}, 2, "without its number of cells"},
              {{10, 0}, 0, "a run of 0 cells"},
-             {{10, 5, 12, 5}, 10, "must rise"},                     // overlap
-             {{10, 5, 15, 5}, 10, "must rise"},                     // no gap
-             {{50, 2, 10, 2}, 4, "must rise"},                      // order
-             {{10, 2, 10, 2}, 4, "must rise"},                      // twice
-             {{99, 2}, 2, "the mesh has 100 cells"},                // beyond the end by one
+             {{10, 5, 12, 5}, 10, "must rise"},       // overlap
+             {{10, 5, 15, 5}, 10, "must rise"},       // no gap
+             {{50, 2, 10, 2}, 4, "must rise"},        // order
+             {{10, 2, 10, 2}, 4, "must rise"},        // twice
+             {{99, 2}, 2, "the mesh has 100 cells"},  // beyond the end by one
              {{100, 1}, 1, "the mesh has 100 cells"},
              {{most, 1}, 1, "the mesh has 100 cells"},
              {{1, most}, 1, "the mesh has 100 cells"},
@@ -402,8 +402,7 @@ TEST(Compression, CorruptedFramesAreRefusedOrDecodedAndNothingElse)
                 for (std::size_t i = 0; i < bad[1].size(); ++i)
                     bytes[i] = static_cast<unsigned char>(random());
         }
-        std::string const thrown =
-            test::thrown_by([&] { unpack_fluid_state(decode(std::move(bad)), both); });
+        std::string const thrown = test::thrown_by([&] { unpack_fluid_state(decode(std::move(bad)), both); });
         if (thrown != "(nothing)")
         {
             EXPECT_THAT(thrown, testing::StartsWith("protocol: "));

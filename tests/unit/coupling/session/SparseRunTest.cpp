@@ -59,8 +59,9 @@ Seen serve(Server& server, Schedule schedule)
     Seen seen;
     server.wait_for_client(server_terms(schedule));
     server.receive_mesh();
-    auto const cells_of = [](int n)
-    { return StepCells{bed(n), {{{field::velocity}, bed(n)}, {{field::pressure_gradient}, {{7, 3}}}}}; };
+    auto const cells_of = [](int n) {
+        return StepCells{bed(n), {{{field::velocity}, bed(n)}, {{field::pressure_gradient}, {{7, 3}}}}};
+    };
     server.accept_mesh(solid(0).view(), {}, cells_of(0));
     while (auto fluid = server.receive_fluid())
     {

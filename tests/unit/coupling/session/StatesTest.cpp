@@ -69,19 +69,17 @@ std::vector<Path> const server_paths{
 using Allowed = std::map<std::pair<State, std::string>, State>;
 
 Allowed const client_allows{
-    {{State::greeting, "Welcome"}, State::welcomed},    {{State::meshing, "MeshAccepted"}, State::accepted},
-    {{State::accepted, "SolidState"}, State::ready},    {{State::waiting, "SolidState"}, State::solving},
-    {{State::waiting, "FluidWanted"}, State::waiting},
-    {{State::overlapping, "SolidState"}, State::ready},
-    {{State::awaiting, "SolidState"}, State::iterating},
-    {{State::saving, "CheckpointSaved"}, State::ready}};
+    {{State::greeting, "Welcome"}, State::welcomed},     {{State::meshing, "MeshAccepted"}, State::accepted},
+    {{State::accepted, "SolidState"}, State::ready},     {{State::waiting, "SolidState"}, State::solving},
+    {{State::waiting, "FluidWanted"}, State::waiting},   {{State::overlapping, "SolidState"}, State::ready},
+    {{State::awaiting, "SolidState"}, State::iterating}, {{State::saving, "CheckpointSaved"}, State::ready}};
 
 Allowed const server_allows{
-    {{State::listening, "Hello"}, State::welcomed},   {{State::welcomed, "Mesh"}, State::meshing},
-    {{State::completing, "FluidState"}, State::computing},
-    {{State::ready, "FluidState"}, State::computing}, {{State::welcomed, "Goodbye"}, State::finished},
-    {{State::meshing, "Goodbye"}, State::finished},   {{State::ready, "Goodbye"}, State::finished},
-    {{State::computing, "Goodbye"}, State::finished}, {{State::ready, "Checkpoint"}, State::saving}};
+    {{State::listening, "Hello"}, State::welcomed},        {{State::welcomed, "Mesh"}, State::meshing},
+    {{State::completing, "FluidState"}, State::computing}, {{State::ready, "FluidState"}, State::computing},
+    {{State::welcomed, "Goodbye"}, State::finished},       {{State::meshing, "Goodbye"}, State::finished},
+    {{State::ready, "Goodbye"}, State::finished},          {{State::computing, "Goodbye"}, State::finished},
+    {{State::ready, "Checkpoint"}, State::saving}};
 
 RawMessage raw_fluid_wanted()
 {
