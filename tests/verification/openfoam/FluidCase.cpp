@@ -3,6 +3,7 @@
 
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -87,7 +88,8 @@ std::string solution(FluidCase const& fluid)
 {
     std::ostringstream out;
     out << "solvers {\n \"p.*\" { solver PCG; preconditioner DIC; tolerance 1e-14; relTol " << fluid.tolerance
-        << "; }\n \"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-14; relTol 1e-9; }\n}\n"
+        << "; }\n \"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-14; relTol "
+        << std::min(1e-9, 10 * fluid.tolerance) << "; }\n}\n"
         << "PIMPLE { momentumPredictor " << (fluid.momentum_predictor ? "yes" : "no")
         << "; nOuterCorrectors 1; nCorrectors " << fluid.correctors
         << "; nNonOrthogonalCorrectors 1; pRefCell 0; pRefValue 0; }\ncache { grad(U); }\n";

@@ -36,7 +36,7 @@ struct FluidCase
     int correctors = 1;
     std::string convection = "limitedLinearV 1";
     std::string gradient = "Gauss linear";
-    double tolerance = 1e-10;  ///< of the pressure, relative
+    double tolerance = 1e-10;  ///< of the pressure, relative; of the velocity ten times that, 1e-9 at most
     std::string control;       ///< more of controlDict
     int fluid_steps = 1;       ///< of a coupling step
     bool overlapped = false;
