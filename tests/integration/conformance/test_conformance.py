@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -47,14 +48,14 @@ class Conformance(unittest.TestCase):
         self.assertEqual(set(verdicts.values()), {"ok"}, text)
         self.assertEqual(len(verdicts), lines, text)
 
-    def test_example_in_cpp(self) -> None:
-        self.passes([str(self.programs / "column-cpp")])
-
-    def test_example_in_c_over_tcp(self) -> None:
-        self.passes([str(self.programs / "column-c")], "--tcp")
-
-    def test_example_in_python(self) -> None:
-        self.passes([PYTHON, str(ROOT / "cfd-client" / "examples" / "column.py")])
+    def test_examples(self) -> None:
+        """In C++, in C over tcp, and in Python; at the same time, as most of it is waiting."""
+        clients = ([str(self.programs / "column-cpp")], [str(self.programs / "column-c")],
+                   [PYTHON, str(ROOT / "cfd-client" / "examples" / "column.py")])
+        with ThreadPoolExecutor() as pool:
+            for trial in [pool.submit(self.passes, client, *options) for client, options
+                          in zip(clients, ((), ("--tcp",), ()))]:
+                trial.result()
 
     def test_gimdem_foam(self) -> None:
         """On the box of wachem-bed with 5 x 1 x 25 cells."""
