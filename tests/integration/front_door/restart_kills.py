@@ -123,29 +123,29 @@ def kill(process: subprocess.Popen[bytes], case: Path, victim: str) -> None:
         pass
 
 
-def coupled_runs(case: Path) -> int:
-    return len(list((case / "runs").glob("*/bed.csv")))
-
-
-def wait_for_coupling(process: subprocess.Popen[bytes], case: Path, runs_before: int = 0) -> None:
-    while process.poll() is None and coupled_runs(case) <= runs_before:
-        time.sleep(0.01)
-
-
-def cut(case: Path, options: list[str], delay: float, victim: str) -> str:
-    """Run, and kill after so many seconds of coupling. Returns what was killed, or that nothing was."""
-    runs_before = coupled_runs(case)
-    process = start(case, *options)
-    wait_for_coupling(process, case, runs_before)
+def steps_of(run: Path) -> int:
+    """So many steps a run has done; -1: it has not begun."""
     try:
-        process.wait(delay)
+        return len((run / "coupling.csv").read_bytes().splitlines()) - 1
+    except OSError:
+        return -1
+
+
+def cut(case: Path, options: list[str], steps: int, victim: str, choose: random.Random) -> str:
+    """Run, and kill at a random moment behind so many steps. Returns what was killed, or that nothing was."""
+    runs_before = len(list((case / "runs").glob("*")))
+    process = start(case, *options)
+    while process.poll() is None and (len(list((case / "runs").glob("*"))) <= runs_before
+                                      or steps_of(newest_run(case)) < steps):
+        time.sleep(0.002)
+    time.sleep(choose.uniform(0, 0.05))
+    if process.poll() is not None:
         return "nothing"
-    except subprocess.TimeoutExpired:
-        kill(process, case, victim)
-        process.wait()
-        while processes_of(case):
-            time.sleep(0.01)
-        return victim
+    kill(process, case, victim)
+    process.wait()
+    while processes_of(case):
+        time.sleep(0.01)
+    return f"{victim} behind step {steps}"
 
 
 def finish(case: Path) -> None:
@@ -159,18 +159,21 @@ def finish(case: Path) -> None:
         raise RuntimeError(err.decode())
 
 
-def one_moment(folder: Path, kind: Kind, whole: dict[str, bytes], seconds: float, choose: random.Random) -> list[str]:
+def one_moment(folder: Path, kind: Kind, whole: dict[str, bytes], choose: random.Random) -> list[str]:
     case = make_case(folder, kind)
     story = []
     options: list[str] = []
+    steps = 95
     for _ in range(choose.choice((1, 1, 1, 2))):
         victim = choose.choice(("gimdem-server", "gimdemFoam", "gimdem"))
-        delay = choose.uniform(0, seconds)
-        story.append(f"{cut(case, options, delay, victim)} after {delay:.2f} s")
+        steps = choose.randrange(0, steps)
+        story.append(cut(case, options, steps, victim, choose))
         options = ["--restart", "latest"]
+        steps = max(1, 90 - steps)  # what is left
     finish(case)
-    ends = [end_of(run) for run in sorted((case / "runs").iterdir()) if any(run.glob(f"*/{RECORD}"))]
-    different = differences(whole, ends[-1])
+    # A run that was killed before its first checkpoint has none, and the one before it is the last.
+    last = [run for run in sorted((case / "runs").iterdir()) if any(run.glob("checkpoints/step_*.h5"))][-1]
+    different = differences(whole, end_of(last))
     print(f"  {kind}: killed {', '.join(story)}: {'equal' if not different else 'DIFFERENT: ' + ', '.join(different)}",
           flush=True)
     return different
@@ -184,23 +187,19 @@ def main() -> int:
     options = parser.parse_args()
     choose = random.Random(options.seed)
     equal = 0
-    wholes: dict[Kind, tuple[dict[str, bytes], float]] = {}
+    wholes: dict[Kind, dict[str, bytes]] = {}
     with tempfile.TemporaryDirectory(prefix="gimdem-kills-") as root:
         for moment in range(options.moments):
             kind = KINDS[moment % len(KINDS)]
             if kind not in wholes:
                 case = make_case(Path(root) / f"whole-{len(wholes)}", kind)
-                began = time.monotonic()
                 process = start(case)
-                wait_for_coupling(process, case)
-                coupled = time.monotonic()
                 _, err = process.communicate()
                 if process.returncode != 0:
                     raise RuntimeError(err.decode())
-                print(f"whole run, {kind}: {time.monotonic() - began:.1f} s", flush=True)
-                wholes[kind] = end_of(newest_run(case)), time.monotonic() - coupled
+                wholes[kind] = end_of(newest_run(case))
             folder = Path(root) / f"moment-{moment}"
-            equal += not one_moment(folder, kind, *wholes[kind], choose)
+            equal += not one_moment(folder, kind, wholes[kind], choose)
             shutil.rmtree(folder)
     print(f"figure: restarts_bitwise_equal = {equal} [1]")
     return 0 if equal == options.moments else 1
