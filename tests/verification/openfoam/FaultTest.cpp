@@ -95,13 +95,6 @@ TEST(Fault, RefusesPressureDividedByDensity)
     EXPECT_THAT(words_alone(process, "-endpoint ipc:///nowhere"), HasSubstr("0/p"));
 }
 
-TEST(Fault, RefusesToRunInParallel)
-{
-    FluidProcess process(small());
-
-    EXPECT_THAT(words_alone(process, "-parallel"), HasSubstr("-parallel is not possible yet"));
-}
-
 TEST(Fault, OfTheFluidReachesTheServer)
 {
     FluidCase fluid = small();
