@@ -25,8 +25,9 @@ using Silence = transport::Reply::Silence;
                                                      "endpoint of a server that runs");
         case Silence::not_zeromq:
             throw CouplingError(Fault::protocol, "who listens" + where +
-                                                     " is not a gimdem server (it does not speak ZeroMQ); give the "
-                                                     "endpoint of a server that runs");
+                                                     " is not a gimdem server (it does not speak ZeroMQ, or hung up on "
+                                                     "us for want of keys); give the endpoint of a server that runs, "
+                                                     "and the keys if it has any");
         case Silence::locked_out:
             throw CouplingError(Fault::user, "the server" + where +
                                                  " does not let us in (it has keys, and ours are absent or unknown to "

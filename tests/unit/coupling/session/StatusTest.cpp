@@ -222,7 +222,9 @@ TEST(StatusQuery, OpensAServerWithKeysByTheKeysOfItsClient)
     options.keys = ours.path();
     Server const server(options);
     EXPECT_EQ(query_status(server.endpoint(), patient, ours.path()).state, "listening");
-    EXPECT_FAULT(query_status(server.endpoint(), patient), Fault::user, "does not let us in");
+    // Either may be first: what ZeroMQ says of the mechanisms, or that the server hangs up.
+    EXPECT_THAT(thrown_by([&] { static_cast<void>(query_status(server.endpoint(), patient)); }),
+                testing::AnyOf(testing::HasSubstr("does not let us in"), testing::HasSubstr("for want of keys")));
     // ZeroMQ tells a client that trusts another server nothing: the handshake does not come to an end.
     EXPECT_THAT(thrown_by([&] { query_status(server.endpoint(), 1, others.path()); }),
                 testing::Not(testing::HasSubstr("(nothing)")));
