@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <utility>
 
@@ -85,11 +86,12 @@ void BedSeries::add(coupling::Step const& step, StepReport const& report, double
 
 // Forces, the pressure drop and the imbalances are those of the interval since the last row (means, means, worst);
 // everything else is of this instant. Forces and momentum are upward components.
+// The row at that very time stays: it tells the interval before, and the next one begins there.
 std::int64_t BedSeries::rewind(double time)
 {
     interval_ = {};
     last_momentum_ = momentum(system_.particles());
-    return series_ ? series_->keep_before(time) : 0;
+    return series_ ? series_->keep_before(time + 2e-9 * std::abs(time)) : 0;
 }
 
 void BedSeries::write_row(coupling::FluidState const& fluid, CoupledEngine const& engine)
