@@ -140,9 +140,10 @@ void CoupledRun::start(std::optional<std::filesystem::path> const& restart)
         load(*restart);
         require_time_left(*restart, at_, settings_.run.until);
         if (client_.resume && client_.resume->step != at_.step)
-            throw UserError(fmt::format("the client goes on from the checkpoint of step {}, the particles from that of "
-                                        "step {} (they must be one pair); restart both from the same one",
-                                        client_.resume->step, at_.step));
+            throw UserError(
+                fmt::format("the client goes on from the checkpoint of step {}, the particles from that of "
+                            "step {} (they must be one pair); restart both from the same one",
+                            client_.resume->step, at_.step));
     }
     else
     {
@@ -157,9 +158,10 @@ void CoupledRun::go_on(coupling::ClientInfo const& client)
     require_same(client);
     auto const file = find_checkpoint(folder_, client.resume->step);
     if (!file)
-        throw UserError(fmt::format("there is no checkpoint of step {} in {} (the client goes on from it); start it "
-                                    "from a newer state",
-                                    client.resume->step, (folder_ / "checkpoints").string()));
+        throw UserError(
+            fmt::format("there is no checkpoint of step {} in {} (the client goes on from it); start it "
+                        "from a newer state",
+                        client.resume->step, (folder_ / "checkpoints").string()));
     if (mesh_hash(server_.receive_mesh()) != engine_.mapped().mesh)
     {
         server_.reject_mesh("it is not the mesh of before");

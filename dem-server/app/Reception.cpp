@@ -23,14 +23,14 @@ Reception::Reception(Case const& settings, std::filesystem::path const& folder, 
 void Reception::open(std::string const& endpoint, double patience)
 {
     server_.reset();  // frees the address
-    server_.emplace(coupling::ServerOptions{
-        .endpoint = endpoint,
-        .name = "gimdem-server " GIMDEM_VERSION,
-        .timeout = settings_.coupling.timeout,
-        .connect_time = patience,
-        .keys = settings_.coupling.keys,
-        .log = [events = &events_](std::string const& text) { events->warn("coupling", text); },
-        .clock_origin = clock_origin()});
+    server_.emplace(
+        coupling::ServerOptions{.endpoint = endpoint,
+                                .name = "gimdem-server " GIMDEM_VERSION,
+                                .timeout = settings_.coupling.timeout,
+                                .connect_time = patience,
+                                .keys = settings_.coupling.keys,
+                                .log = [events = &events_](std::string const& text) { events->warn("coupling", text); },
+                                .clock_origin = clock_origin()});
     server_->save_checkpoints_by(saver_);
     server_->publish({.title = settings_.title,
                       .activity = "waiting for a client",
@@ -77,13 +77,15 @@ void Reception::go_on(CoupledRun& run)
 {
     coupling::ClientInfo const client = meet();
     if (!client.resume)
-        throw UserError(fmt::format("{} begins a run (this server waits for a client that goes on with one); use "
-                                    "another endpoint, or let it go on from a checkpoint",
-                                    client.name));
+        throw UserError(
+            fmt::format("{} begins a run (this server waits for a client that goes on with one); use "
+                        "another endpoint, or let it go on from a checkpoint",
+                        client.name));
     if (!sessions_.contains(client.resume->session))
-        throw UserError(fmt::format("{} goes on from a checkpoint of session {} (it is not of this run); use another "
-                                    "endpoint, or restart the server from that checkpoint",
-                                    client.name, client.resume->session));
+        throw UserError(
+            fmt::format("{} goes on from a checkpoint of session {} (it is not of this run); use another "
+                        "endpoint, or restart the server from that checkpoint",
+                        client.name, client.resume->session));
     run.go_on(client);
     events_.say("client_came_back", fmt::format("{} has come back", client.name), {{"client", client.name}});
 }

@@ -33,9 +33,10 @@ ParticleState checked_particles(Case const& settings, Materials const& materials
 void require_checkpoint_for(coupling::ClientInfo const& client, bool has_checkpoint)
 {
     if (!client.resume || has_checkpoint) return;
-    throw UserError(fmt::format("{} goes on at {:.9g} s from the checkpoint of step {} (this server begins a run); "
-                                "start the server with --restart and that checkpoint",
-                                client.name, client.resume->time, client.resume->step));
+    throw UserError(
+        fmt::format("{} goes on at {:.9g} s from the checkpoint of step {} (this server begins a run); "
+                    "start the server with --restart and that checkpoint",
+                    client.name, client.resume->time, client.resume->step));
 }
 
 /// Steps until the client says goodbye; one that is lost without a word may come back.

@@ -17,8 +17,8 @@ namespace
 
 using namespace coupling;
 
-double constexpr dt = 1e-4;  ///< [s]
-int constexpr last = 60;     ///< step
+double constexpr dt = 1e-4;                                       ///< [s]
+int constexpr last = 60;                                          ///< step
 Mesh const mesh = BoxMesh::make({8, 8, 16}, {0.06, 0.06, 0.12});  ///< that of the scripted client
 UniformFluid const fluid(static_cast<std::size_t>(mesh.cell_count), {0, 0, 1});
 

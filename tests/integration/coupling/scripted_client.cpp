@@ -51,7 +51,8 @@ int main(int argc, char** argv)
     if (argc < 4 || argc > 6) return 2;
     try
     {
-        run(argv[1], std::atof(argv[2]), std::atoi(argv[3]), argc > 4 ? argv[4] : "", argc > 5 ? std::atoi(argv[5]) : 0);
+        run(argv[1], std::atof(argv[2]), std::atoi(argv[3]), argc > 4 ? argv[4] : "",
+            argc > 5 ? std::atoi(argv[5]) : 0);
         return 0;
     }
     catch (std::exception const& error)

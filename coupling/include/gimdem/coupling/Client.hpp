@@ -45,9 +45,9 @@ struct ClientOptions
     std::vector<std::string> wants;  ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
     bool shared_memory = true;       ///< over ipc, let large fields travel through shared memory if the server can
     std::optional<ResumePoint> resume;  ///< where to go on; left empty: a run begins
-    bool iterates = false;           ///< the program calls iterate_step() if the schedule is iterated
-    Rank rank;                       ///< of a fluid that several processes solve together
-    std::string keys;                ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
+    bool iterates = false;              ///< the program calls iterate_step() if the schedule is iterated
+    Rank rank;                          ///< of a fluid that several processes solve together
+    std::string keys;  ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
 };
 
 /// The server's answer to Hello.

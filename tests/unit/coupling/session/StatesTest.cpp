@@ -70,8 +70,7 @@ using Allowed = std::map<std::pair<State, std::string>, State>;
 Allowed const client_allows{
     {{State::greeting, "Welcome"}, State::welcomed},    {{State::meshing, "MeshAccepted"}, State::accepted},
     {{State::accepted, "SolidState"}, State::ready},    {{State::waiting, "SolidState"}, State::solving},
-    {{State::overlapping, "SolidState"}, State::ready},
-    {{State::awaiting, "SolidState"}, State::iterating},
+    {{State::overlapping, "SolidState"}, State::ready}, {{State::awaiting, "SolidState"}, State::iterating},
     {{State::saving, "CheckpointSaved"}, State::ready}};
 
 Allowed const server_allows{
