@@ -253,7 +253,7 @@ void CoupledEngine::look_ahead()
     if (system_.device() == nullptr) coverage_.look_ahead(mapper_.cell_of().host(), has_drag_.host());
 }
 
-coupling::StepCells CoupledEngine::step_cells(bool can_ask) const
+coupling::StepCells CoupledEngine::step_cells(bool can_ask)
 {
     coupling::StepCells cells;
     std::span<std::uint8_t const> const flags = has_solid_.host();

@@ -65,7 +65,7 @@ public:
 
     /// Which cells of the solid are to travel, and of the fluid of the next step. can_ask: advance() will be given a
     /// whole_fluid that works.
-    coupling::StepCells step_cells(bool can_ask) const;
+    coupling::StepCells step_cells(bool can_ask);
     /// Cells whose pressure and gradients somebody else reads, too.
     void monitor(std::span<std::int32_t const> cells) { coverage_.monitor(cells); }
 

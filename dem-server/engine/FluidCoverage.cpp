@@ -73,7 +73,7 @@ bool FluidCoverage::has_velocity(std::span<std::uint8_t const> has_drag) const
                       [](std::uint8_t drag, std::uint8_t chosen) { return drag == 0 || chosen != 0; });
 }
 
-std::vector<coupling::NeededCells> FluidCoverage::needed(bool whole_velocity) const
+std::vector<coupling::NeededCells> FluidCoverage::needed(bool whole_velocity)
 {
     namespace field = coupling::field;
     std::vector<std::uint8_t> gradients(loads_);
@@ -83,7 +83,10 @@ std::vector<coupling::NeededCells> FluidCoverage::needed(bool whole_velocity) co
         {{field::velocity_gradient}, runs_where(as_span(loads_))},
         {{field::pressure_gradient, field::void_fraction_gradient}, runs_where(as_span(gradients))},
         {{field::pressure}, runs_where(as_span(monitored_))}};
-    if (!whole_velocity) needed.push_back({{field::velocity}, runs_where(as_span(velocity_))});
+    if (whole_velocity)
+        std::fill(velocity_.begin(), velocity_.end(), std::uint8_t{1});
+    else
+        needed.push_back({{field::velocity}, runs_where(as_span(velocity_))});
     return needed;
 }
 

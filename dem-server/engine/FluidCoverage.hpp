@@ -34,7 +34,7 @@ public:
     bool has_velocity(std::span<std::uint8_t const> has_drag) const;
 
     /// What was chosen, by fields. whole_velocity: the velocity in all cells, so that no guess can fail.
-    std::vector<coupling::NeededCells> needed(bool whole_velocity) const;
+    std::vector<coupling::NeededCells> needed(bool whole_velocity);
 
 private:
     void grow(std::vector<std::int32_t>& edge);

@@ -82,6 +82,8 @@ TEST(FluidCoverage, SeesWhatItDidNotAskFor)
     EXPECT_TRUE(coverage.has_velocity(drag));
     drag[static_cast<std::size_t>(number(4, 4, 5))] = 1;
     EXPECT_FALSE(coverage.has_velocity(drag)) << "three faces away";
+    static_cast<void>(coverage.needed(true));
+    EXPECT_TRUE(coverage.has_velocity(drag)) << "all of it was asked for";
 }
 
 TEST(FluidCoverage, ForgetsTheStepBefore)
