@@ -17,13 +17,13 @@ namespace gimdem::coupling::message
 struct Hello
 {
     std::string name;
-    FluidProperties fluid;
-    std::vector<std::string> wants;
+    FluidProperties fluid = {};
+    std::vector<std::string> wants = {};
     std::optional<Schedule> schedule;
     double timeout = 0;  ///< of the client [s]
-    std::optional<ResumePoint> resume;
+    std::optional<ResumePoint> resume = {};
     bool iterates = false;
-    Rank rank;
+    Rank rank = {};
     Encodings encodings = {};  ///< that the client can use
 };
 

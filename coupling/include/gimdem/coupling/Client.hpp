@@ -45,10 +45,10 @@ struct ClientOptions
     std::optional<Schedule> schedule;  ///< ask for one; left empty, the server's case file decides
     std::vector<std::string> wants;  ///< solid fields to receive; empty: void_fraction, drag_coefficient, drag_momentum
     bool shared_memory = true;       ///< over ipc, let large fields travel through shared memory if the server can
-    Encodings encodings{true, true, true};  ///< those that the server may choose
-    std::optional<ResumePoint> resume;      ///< where to go on; left empty: a run begins
-    bool iterates = false;                  ///< the program calls iterate_step() if the schedule is iterated
-    Rank rank;                              ///< of a fluid that several processes solve together
+    Encodings encodings{true, true, true};   ///< those that the server may choose
+    std::optional<ResumePoint> resume = {};  ///< where to go on; left empty: a run begins
+    bool iterates = false;                   ///< the program calls iterate_step() if the schedule is iterated
+    Rank rank = {};                          ///< of a fluid that several processes solve together
     std::string keys;  ///< folder of keys, gimdem/coupling/Keys.hpp; empty: none, and this machine only
 };
 
@@ -58,13 +58,13 @@ struct Welcome
     std::string server;  ///< name and version of the server
     std::string title;   ///< of the case
     Schedule schedule = Schedule::serial;
-    double end_time = 0;                      ///< the run ends here [s]
-    std::vector<std::string> needs;           ///< fluid fields that this scene needs, names of namespace field
-    bool saves_checkpoints = false;           ///< save_checkpoint() is possible
-    int fluid_steps = 1;                      ///< equal fluid steps that a coupling step should have
-    Iteration iteration;                      ///< of schedule iterated
-    std::vector<std::string> rank_endpoints;  ///< to rank 0 of several: where ranks 1, 2, ... connect
-    Encodings encodings = {};                 ///< in force
+    double end_time = 0;                           ///< the run ends here [s]
+    std::vector<std::string> needs = {};           ///< fluid fields that this scene needs, names of namespace field
+    bool saves_checkpoints = false;                ///< save_checkpoint() is possible
+    int fluid_steps = 1;                           ///< equal fluid steps that a coupling step should have
+    Iteration iteration = {};                      ///< of schedule iterated
+    std::vector<std::string> rank_endpoints = {};  ///< to rank 0 of several: where ranks 1, 2, ... connect
+    Encodings encodings = {};                      ///< in force
     bool needs_field(std::string const& name) const;
 };
 

@@ -55,10 +55,10 @@ struct ServerTerms
 {
     std::string title;
     Schedule schedule = Schedule::serial;
-    double end_time = 0;             ///< [s]
-    std::vector<std::string> needs;  ///< fluid fields to ask for
-    int fluid_steps = 1;             ///< equal fluid steps that a coupling step should have
-    Iteration iteration;             ///< of schedule iterated
+    double end_time = 0;                  ///< [s]
+    std::vector<std::string> needs = {};  ///< fluid fields to ask for
+    int fluid_steps = 1;                  ///< equal fluid steps that a coupling step should have
+    Iteration iteration = {};             ///< of schedule iterated
 };
 
 /// What Hello told.
@@ -66,11 +66,11 @@ struct ClientInfo
 {
     std::string name;
     FluidProperties fluid;
-    std::vector<std::string> wants;     ///< solid fields the client asks for
-    std::optional<Schedule> schedule;   ///< the client's wish, which is then in force; empty: the server's terms are
-    std::optional<ResumePoint> resume;  ///< where the client goes on; empty: it begins a run
-    bool iterates = false;              ///< it can repeat steps; where that is also in force, it will
-    std::int32_t ranks = 1;             ///< processes that the client consists of
+    std::vector<std::string> wants;    ///< solid fields the client asks for
+    std::optional<Schedule> schedule;  ///< the client's wish, which is then in force; empty: the server's terms are
+    std::optional<ResumePoint> resume = {};  ///< where the client goes on; empty: it begins a run
+    bool iterates = false;                   ///< it can repeat steps; where that is also in force, it will
+    std::int32_t ranks = 1;                  ///< processes that the client consists of
     bool wants_field(std::string const& field_name) const;
 };
 
