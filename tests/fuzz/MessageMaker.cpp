@@ -110,6 +110,7 @@ void spoil_value(Message& message, FieldDescriptor const& field, Bytes& input)
 void spoil(Message& message, Bytes& input)
 {
     auto const& kind = *message.GetDescriptor();
+    if (kind.field_count() == 0) return;  // FluidWanted says all by coming
     auto const& field = *kind.field(static_cast<int>(input.choose(static_cast<unsigned>(kind.field_count()))));
     auto const& fields = *message.GetReflection();
     if (!field.is_repeated())
