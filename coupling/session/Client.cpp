@@ -80,7 +80,7 @@ struct Client::Impl
     int pass = 0;  ///< of this step
     session::ExchangeClock clock;
     session::ClientRecord record;
-    Time fluid_sent;  ///< of this step
+    Time fluid_leaves;  ///< that of this step does not before: the clocks' offset is bounded by it
     session::Session session;
 };
 
@@ -201,9 +201,10 @@ void Client::Impl::send_fluid(Event call, FluidState const& given, Time entered)
     pass = fluid.pass;
     session.set_step(step.number);
     session.advance(call);
+    fluid_leaves = Clock::now();
     session.send(std::move(message));
     terms.memory.message_sent();
-    fluid_sent = Clock::now();
+    Time const fluid_sent = Clock::now();
     clock.sent(entered, fluid_sent);
     record.began(step.number, entered, fluid_sent);
 
@@ -293,7 +294,7 @@ Time Client::Impl::take_solid()
                                           "); the two programs do not fit together, see docs/protocol.md");
     session.read([&] { shared.attach(letter.message); });
     solid = session.read([&] { return message::unpack_solid_state(letter.message, terms); });
-    session.read([&] { record.heard(letter.message, fluid_sent, letter.arrival); });
+    session.read([&] { record.heard(letter.message, fluid_leaves, letter.arrival); });
     terms.needed = solid.cells.needed;
     solid_message = std::move(letter.message);
     return letter.arrival;

@@ -195,8 +195,9 @@ class Client:
         self._step, self._pass = step, number
         meanwhile, after = STEPPING[self.welcome.schedule]
         self._advance(meanwhile)
+        self._sent_at = time.monotonic()  # not later than the message leaves: the clocks' offset is bounded by it
         self._send(envelope, frames)
-        self._sent_at = sent = time.monotonic()
+        sent = time.monotonic()
         self._record.begun(step.number, entered)
         if self._overlaps():
             return self._record.resumed(sent)
