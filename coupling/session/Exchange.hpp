@@ -39,6 +39,8 @@ public:
     virtual void look_for_loss() = 0;
     /// A fault has ended it.
     virtual bool has_failed() const = 0;
+    /// Because the client is gone, silent or slow; it has not said why.
+    virtual bool has_lost_client() const = 0;
 };
 
 }  // namespace gimdem::coupling::session

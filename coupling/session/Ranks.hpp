@@ -55,11 +55,13 @@ public:
     void set_watch(std::function<void()> watch) override;
     void look_for_loss() override;
     bool has_failed() const override;
+    bool has_lost_client() const override { return has_lost_client_; }
 
 private:
     /// Runs a call; if one rank's session ends in it, so do the others, with the same reason.
     template <class Body>
     auto together(Body body) -> decltype(body());
+    void end_all(std::string const& reason) noexcept;
     [[noreturn]] void fail(Fault fault, std::string const& text);
     void check_same_step(std::vector<FluidState> const& states);
     void forward_stop();
@@ -68,8 +70,9 @@ private:
     Parts others_;
     std::string name_;  ///< of the client
     message::FieldChoice<SolidFields> wants_;
-    RankCells cells_;        ///< holds what the spans of the last FluidState show
-    std::mutex stop_mutex_;  ///< request_stop() may come from another thread
+    RankCells cells_;               ///< holds what the spans of the last FluidState show
+    bool has_lost_client_ = false;  ///< the rank whose session ended first was lost
+    std::mutex stop_mutex_;         ///< request_stop() may come from another thread
     std::optional<std::string> stop_;
 };
 
@@ -82,7 +85,7 @@ auto Ranks::together(Body body) -> decltype(body())
     }
     catch (CouplingError const& error)
     {
-        if (has_failed()) abort(Fault::peer, error.what());
+        end_all(error.what());
         throw;
     }
 }

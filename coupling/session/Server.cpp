@@ -134,7 +134,7 @@ void Server::send_solid(SolidFields const& fields, Timings const& timings, StepC
 
 bool Server::has_lost_client() const
 {
-    return !impl_->ranks && impl_->first.session().has_lost_peer();
+    return impl_->whole().has_lost_client();
 }
 
 std::uint64_t Server::session_number() const

@@ -54,6 +54,7 @@ public:
     void set_watch(std::function<void()> watch) override { session_.set_watch(std::move(watch)); }
     void look_for_loss() override { session_.look_for_loss("all ranks"); }
     bool has_failed() const override { return session_.state() == State::failed; }
+    bool has_lost_client() const override { return session_.has_lost_peer(); }
 
     void save_checkpoints_by(Server::CheckpointSaver saver) { saver_ = std::move(saver); }
     ServerOptions const& options() const { return options_; }
