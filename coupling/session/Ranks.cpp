@@ -119,7 +119,7 @@ void Ranks::accept_mesh(SolidFields const& initial, Timings const& timings, Step
         [&]
         {
             for (std::size_t rank = 0; rank < parts_.size(); ++rank)
-                parts_[rank]->accept_mesh(cells_.cut(initial, rank), timings, cells);
+                parts_[rank]->accept_mesh(cells_.cut(initial, rank), timings, cells_.cut(cells, rank));
         });
 }
 

@@ -124,7 +124,12 @@ std::string const& Server::goodbye_reason() const
 
 void Server::complete(FluidState& fluid)
 {
-    impl_->guard([&] { impl_->whole().complete(fluid); });
+    impl_->guard(
+        [&]
+        {
+            impl_->whole().ask_for_whole(fluid);
+            impl_->whole().take_whole(fluid);
+        });
 }
 
 void Server::send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells)

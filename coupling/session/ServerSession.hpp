@@ -44,7 +44,8 @@ public:
     Mesh receive_mesh() override;
     void accept_mesh(SolidFields const& initial, Timings const& timings, StepCells const& cells) override;
     std::optional<FluidState> receive_fluid() override;
-    void complete(FluidState& fluid) override;
+    void ask_for_whole(FluidState const& fluid) override;
+    void take_whole(FluidState& fluid) override;
     void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells) override;
     void request_stop(std::string const& reason) override;
     void abort(Fault fault, std::string const& reason) noexcept override { session_.abort(fault, reason); }

@@ -106,9 +106,8 @@ protected:
     /// Kills rank 1 behind the checkpoint of step 20, which it returns.
     ResumePoint lose_rank(ServerProcess& server)
     {
-        auto const command = [](std::string const& endpoint, char const* rank) -> std::vector<std::string> {
-            return {GIMDEM_SCRIPTED_CLIENT, endpoint, "40", std::to_string(return_steps), "", "20", rank, "2"};
-        };
+        auto const command = [](std::string const& endpoint, char const* rank) -> std::vector<std::string>
+        { return {GIMDEM_SCRIPTED_CLIENT, endpoint, "40", std::to_string(return_steps), "", "20", rank, "2"}; };
         Process first(command(server.endpoint(), "0"), folder / "rank0.txt");
         std::smatch told;
         EXPECT_TRUE(first.wait_for_output("the next rank at ", soon)) << first.output();
