@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "RankedPair.hpp"
+#include "SparseSolid.hpp"
 #include "session/RankCells.hpp"
 
 namespace gimdem::test
@@ -38,18 +39,9 @@ bool is_in_bed(int n, std::size_t c)
     return c < 500 + 40 * static_cast<std::size_t>(n) || c == 1500 + static_cast<std::size_t>(n);
 }
 
-/// The solid of step n: all numbers differ inside the bed, nothing outside.
 SolidArrays solid(int n)
 {
-    SolidArrays arrays(cells, n);
-    for (std::size_t c = 0; c < cells; ++c)
-        if (!is_in_bed(n, c))
-        {
-            arrays.void_fraction[c] = 1;
-            arrays.drag_coefficient[c] = 0;
-            std::fill_n(&arrays.drag_momentum[3 * c], 3, 0.0);
-        }
-    return arrays;
+    return solid_in(bed(n), cells, n);
 }
 
 struct Seen
@@ -59,14 +51,15 @@ struct Seen
     double bytes = 0;
 };
 
-/// Needs the velocity in the bed of the step before; in every third step it finds that this was not enough.
+/// Needs the velocity in the bed of the step before; in every third step it finds that this was not enough. In later
+/// steps rank 0 sends all its cells, the others do not.
 Seen serve(Server& server, Schedule schedule)
 {
     Seen seen;
     server.wait_for_client(server_terms(schedule));
     server.receive_mesh();
     auto const cells_of = [](int n) {
-        return StepCells{bed(n), {{{field::velocity}, bed(n)}, {{field::pressure_gradient}, {{7, 3}}}}};
+        return StepCells{bed(n), {{{field::velocity}, bed(n)}, {{field::pressure_gradient}, {{0, 800}}}}};
     };
     server.accept_mesh(solid(0).view(), {}, cells_of(0));
     double const before = server.bytes();
@@ -164,21 +157,25 @@ TEST_P(RankedSparseRun, GivesEveryCellItsNumbersAndTheOthersNone)
         EXPECT_EQ(absent > 900, !all && way.can == ranks) << "step " << n;
     }
     double constexpr whole_bytes = (6 + 5) * 8.0 * cells;
-    EXPECT_EQ(seen.bytes > whole_bytes, way.can == 0);
-    EXPECT_EQ(seen.bytes < 0.75 * whole_bytes, way.can == ranks);
+    double constexpr bed_bytes = (3 + 5) * 8.0 * 501;  // at least: of the first bed, velocity and solid
+    EXPECT_GT(seen.bytes, way.can == 0 ? whole_bytes : bed_bytes);
+    // Of rank 1's 660 cells 140 are in the bed at most: 520 leave out 5 numbers of the solid, and in two of three steps
+    // 3 of the velocity and 3 of the gradient. That is 22 %, of which 2 % are left to envelopes.
+    EXPECT_LT(seen.bytes, way.can == 0 ? 1.1 * whole_bytes : 0.8 * whole_bytes);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Ways, RankedSparseRun,
-    testing::Values(Way{"ipc", true, Schedule::serial, ranks}, Way{"ipc", true, Schedule::overlapped, ranks},
-                    Way{"ipc", false, Schedule::serial, ranks}, Way{"tcp", false, Schedule::overlapped, ranks},
-                    Way{"ipc", true, Schedule::serial, 2}, Way{"tcp", false, Schedule::serial, 0}),
-    [](auto const& way)
-    {
-        return way.param.transport + (way.param.shared_memory ? "_shared_" : "_plain_") +
-               (way.param.schedule == Schedule::serial ? "serial_" : "overlapped_") + std::to_string(way.param.can) +
-               "_can";
-    });
+INSTANTIATE_TEST_SUITE_P(Ways, RankedSparseRun,
+                         testing::Values(Way{"ipc", true, Schedule::serial, ranks},
+                                         Way{"ipc", true, Schedule::overlapped, ranks},
+                                         Way{"ipc", false, Schedule::serial, ranks},
+                                         Way{"tcp", false, Schedule::overlapped, ranks},
+                                         Way{"ipc", true, Schedule::serial, 2}, Way{"tcp", false, Schedule::serial, 0}),
+                         [](auto const& way)
+                         {
+                             return way.param.transport + (way.param.shared_memory ? "_shared_" : "_plain_") +
+                                    (way.param.schedule == Schedule::serial ? "serial_" : "overlapped_") +
+                                    std::to_string(way.param.can) + "_can";
+                         });
 
 /// The cells of a list, one by one.
 std::vector<std::int32_t> listed(CellRuns const& runs, std::int32_t shift)
@@ -194,12 +191,8 @@ TEST(RankCells, CutRunsWithoutLosingOrAddingACell)
 {
     std::vector<std::int32_t> const first_cell{0, 5, 5, 9, 20};  // rank 1 has none
     session::RankCells const dealt_cells(first_cell, {});
-    for (CellRuns const& whole : std::vector<CellRuns>{{},
-                                                       {{0, 20}},
-                                                       {{4, 1}},
-                                                       {{5, 4}},
-                                                       {{4, 2}, {8, 1}},
-                                                       {{1, 2}, {4, 6}, {12, 1}, {19, 1}}})
+    for (CellRuns const& whole :
+         std::vector<CellRuns>{{}, {{0, 20}}, {{4, 1}}, {{5, 4}}, {{4, 2}, {8, 1}}, {{1, 2}, {4, 6}, {12, 1}, {19, 1}}})
     {
         std::vector<std::int32_t> found;
         for (std::size_t rank = 0; rank < 4; ++rank)
