@@ -81,7 +81,9 @@ void ClientSession::send_mesh(MeshView const& mesh)
     Letter const letter = receive("MeshAccepted");
     session_.read([&] { message::check_mesh_accepted(letter.message, mesh.cell_count); });
     session_.use(shared_.use_if_confirmed(letter.message, terms_.memory));
-    session_.use(session_.read([&] { return shared_.map_announced(letter.message); }));
+    session_.use(session_.read([&] { return shared_.map_announced(letter.message); }),
+                 [this](message::Message& solid, std::size_t packed)
+                 { message::take_in(solid, packed, terms_.solid, terms_.cell_count, terms_.store); });
     take_solid();
     record_.log().write(LogLevel::info, "mesh_accepted", "the server holds the mesh",
                         {{"cells", static_cast<double>(mesh.cell_count)}});

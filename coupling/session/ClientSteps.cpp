@@ -41,6 +41,7 @@ Event ClientSession::begin_event() const
 void ClientSession::send_fluid(Event call, FluidState const& given, Time entered)
 {
     session_.require(call);
+    session_.announce_soon();
     if (call == Event::iterate_step) record_.ended(entered, entered, 0);
     fluid_ = given;
     message::Message message = message::lay_out(fluid_, terms_);

@@ -26,6 +26,7 @@ public:
     virtual void ask_for_whole(FluidState const& fluid) = 0;
     virtual void take_whole(FluidState& fluid) = 0;
     virtual void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells) = 0;
+    virtual void wake_client() = 0;
     virtual void request_stop(std::string const& reason) = 0;
 
     /// Tells the client why, and ends the session.

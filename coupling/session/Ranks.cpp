@@ -123,6 +123,12 @@ void Ranks::accept_mesh(SolidFields const& initial, Timings const& timings, Step
         });
 }
 
+void Ranks::wake_client()
+{
+    for (Exchange* const part : parts_)
+        part->wake_client();
+}
+
 void Ranks::request_stop(std::string const& reason)
 {
     std::lock_guard<std::mutex> const lock(stop_mutex_);

@@ -47,6 +47,7 @@ public:
     void ask_for_whole(FluidState const& fluid) override;
     void take_whole(FluidState& fluid) override;
     void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells) override;
+    void wake_client() override;
     void request_stop(std::string const& reason) override;
     void abort(Fault fault, std::string const& reason) noexcept override;
 

@@ -132,6 +132,11 @@ void Server::complete(FluidState& fluid)
         });
 }
 
+void Server::wake_client()
+{
+    impl_->whole().wake_client();
+}
+
 void Server::send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells)
 {
     impl_->guard([&] { impl_->whole().send_solid(fields, timings, cells); });

@@ -12,8 +12,10 @@ Mesh ServerSession::receive_mesh()
     Letter const letter = receive("Mesh");
     if (said_goodbye(letter))
         throw CouplingError(Fault::peer, session_.peer_name() + " said goodbye before it sent its mesh: " + goodbye_);
-    session_.use(session_.read(
-        [&] { return shared_.map_announced(letter.message); }));  // first, so that no fault leaves its name behind
+    // First, so that no fault leaves its name behind.
+    session_.use(session_.read([&] { return shared_.map_announced(letter.message); }),
+                 [this](message::Message& fluid, std::size_t packed)
+                 { message::take_in(fluid, packed, terms_.fluid, terms_.cell_count, terms_.store); });
     Mesh mesh = session_.read([&] { return message::unpack_mesh(letter.message); });
     terms_.cell_count = static_cast<std::size_t>(mesh.cell_count);
     session_.limit_arrays(message::field_bytes(terms_.fluid, terms_.cell_count));

@@ -47,6 +47,7 @@ public:
     void ask_for_whole(FluidState const& fluid) override;
     void take_whole(FluidState& fluid) override;
     void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells) override;
+    void wake_client() override;
     void request_stop(std::string const& reason) override;
     void abort(Fault fault, std::string const& reason) noexcept override { session_.abort(fault, reason); }
     std::string const& goodbye_reason() const override { return goodbye_; }
@@ -88,6 +89,7 @@ private:
     std::string goodbye_;
     double busy_before_ = 0;  ///< the last fluid lay here unread for so long [s]
     Time handed_out_;         ///< when receive_fluid() returned
+    double waking_ = 0;       ///< what it took since then to wake the client up [s]
     ServerTimes times_;       ///< of the last step
     std::optional<LastClientStep> last_client_step_;
     std::mutex stop_mutex_;  ///< request_stop() may come from another thread

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Fluid and solid of each step.
 #include <algorithm>
+#include <utility>
 
 #include "message/ClockMessages.hpp"
 #include "message/StepMessages.hpp"
@@ -64,11 +65,19 @@ void ServerSession::take_whole(FluidState& fluid)
     fluid_message_ = std::move(letter.message);
 }
 
+void ServerSession::wake_client()
+{
+    Time const entered = Clock::now();
+    session_.announce_soon();
+    waking_ += seconds_between(entered, Clock::now());
+}
+
 void ServerSession::send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells)
 {
     times_.answering = clock_now();
-    double const busy = busy_before_ + seconds_between(handed_out_, Clock::now());
+    double const busy = busy_before_ + seconds_between(handed_out_, Clock::now()) - std::exchange(waking_, 0);
     session_.require(Event::send_solid);
+    session_.announce_soon();
     message::Message solid = message::lay_out(message::SolidState{fields, timings, busy, stop_reason(), cells}, terms_);
     solid.envelope.set_iteration(pass_);
     message::put({times_.arrived, times_.answering, options_.clock_origin, 0}, solid);
