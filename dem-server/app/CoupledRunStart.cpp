@@ -126,8 +126,7 @@ void CoupledRun::accept_mesh()
 void CoupledRun::require_same(coupling::ClientInfo const& client) const
 {
     bool const same = client.fluid.density == client_.fluid.density &&
-                      client.fluid.viscosity == client_.fluid.viscosity &&
-                      schedule_of(settings_, client) == schedule_;
+                      client.fluid.viscosity == client_.fluid.viscosity && schedule_of(settings_, client) == schedule_;
     if (same) return;
     throw UserError(
         "the client has come back with another fluid or schedule (the run goes on with those of before); start it as "
