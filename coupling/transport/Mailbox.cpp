@@ -2,6 +2,7 @@
 #include "transport/Mailbox.hpp"
 
 #include <linux/futex.h>
+#include <sched.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 #include <algorithm>
@@ -25,6 +26,7 @@ struct MailboxPage
     std::uint32_t complete;             ///< 0: the last message was abandoned
     std::atomic<std::uint32_t> packed;  ///< arrays of the present message
     unsigned char envelope[max_posted_bytes];
+    std::atomic<std::uint32_t> processor;  ///< that the sender runs on, + 1; 0: not known
 };
 static_assert(sizeof(MailboxPage) == mailbox_bytes && std::atomic<std::uint32_t>::is_always_lock_free);
 
@@ -36,8 +38,11 @@ namespace
     throw CouplingError(Fault::protocol, problem);
 }
 
-/// Longer than it takes to pack the fields of a hundred thousand cells.
+/// Who is awake waits so long for the next array before it sleeps: longer than it takes to pack a field of a hundred
+/// thousand cells.
 auto constexpr patience = std::chrono::microseconds(500);
+/// And so long from a knock to the ring: longer than it takes to lay a message out.
+auto constexpr patience_after_knock = std::chrono::microseconds(100);
 
 /// Where the mailbox of a segment is. A segment's size is a multiple of a cache line, or it is not one of ours.
 unsigned char* place_in(Mapping const& memory)
@@ -57,6 +62,17 @@ Outbox::Outbox(std::shared_ptr<OwnSegment const> segment)
 void Outbox::ring()
 {
     page_->bell.fetch_add(1, std::memory_order_release);
+    wake_reader();
+}
+
+void Outbox::knock()
+{
+    wake_reader();
+}
+
+void Outbox::wake_reader()
+{
+    page_->processor.store(static_cast<std::uint32_t>(::sched_getcpu() + 1), std::memory_order_relaxed);
     ::syscall(SYS_futex, &page_->bell, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
 }
 
@@ -116,10 +132,16 @@ std::optional<Frame> Postbox::look()
 
 Postbox::Packing Postbox::packing(std::function<void(std::size_t)> const& meanwhile)
 {
-    for (Time const until = Clock::now() + patience; bell() == announced_;)
+    std::uint32_t packed = 0;
+    for (Time until = Clock::now() + patience; bell() == announced_;)
     {
-        if (meanwhile) meanwhile(page_->packed.load(std::memory_order_acquire));
-        if (Clock::now() > until) return Packing::going_on;
+        if (std::uint32_t const now = page_->packed.load(std::memory_order_acquire); now != packed)
+        {
+            packed = now;
+            if (meanwhile) meanwhile(packed);
+            until = Clock::now() + patience;
+        }
+        if (is_in_the_way() || Clock::now() > until) return Packing::going_on;
     }
     return seen_ == announced_ + 1 && page_->complete != 0 ? Packing::complete : Packing::abandoned;
 }
@@ -130,6 +152,12 @@ Time Postbox::posted()
     return last_ = std::clamp(told, last_, Clock::now());
 }
 
+/// Were we woken on the very processor that the sender was about to use?
+bool Postbox::is_in_the_way() const
+{
+    return page_->processor.load(std::memory_order_relaxed) == static_cast<std::uint32_t>(::sched_getcpu() + 1);
+}
+
 void Postbox::wait(Time until) const
 {
     auto const left = std::chrono::nanoseconds(until - Clock::now()).count();
@@ -137,8 +165,11 @@ void Postbox::wait(Time until) const
     timespec time{};
     time.tv_sec = static_cast<std::time_t>(left / 1'000'000'000);
     time.tv_nsec = static_cast<long>(left % 1'000'000'000);
-    // Returns at once if the bell has rung since take() looked.
-    ::syscall(SYS_futex, &page_->bell, FUTEX_WAIT, seen_, &time, nullptr, 0);
+    // Returns at once if the bell has rung since look().
+    bool const woken = ::syscall(SYS_futex, &page_->bell, FUTEX_WAIT, seen_, &time, nullptr, 0) == 0;
+    if (!woken) return;
+    for (Time const end = Clock::now() + patience_after_knock; Clock::now() < end && !is_in_the_way();)
+        if (page_->bell.load(std::memory_order_acquire) != seen_) return;
 }
 
 }  // namespace gimdem::coupling::transport

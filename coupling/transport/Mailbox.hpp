@@ -18,7 +18,7 @@ namespace gimdem::coupling::transport
 
 inline constexpr std::size_t mailbox_bytes = 4096;
 /// The longest envelope that a mailbox holds; longer ones go through the socket [byte].
-inline constexpr std::size_t max_posted_bytes = mailbox_bytes - 24;
+inline constexpr std::size_t max_posted_bytes = mailbox_bytes - 28;
 
 /// What lies there; the layout is part of the protocol.
 struct MailboxPage;
@@ -29,6 +29,8 @@ class Outbox
 public:
     explicit Outbox(std::shared_ptr<OwnSegment const> segment);
 
+    /// Wakes the peer up: a message is about to be announced.
+    void knock();
     /// Rings for an envelope of max_posted_bytes at most whose arrays are packed next.
     void announce(Frame const& envelope);
     /// So many arrays of it are packed.
@@ -40,6 +42,7 @@ public:
 
 private:
     void ring();
+    void wake_reader();
 
     std::shared_ptr<OwnSegment const> segment_;
     MailboxPage* page_;
@@ -68,11 +71,13 @@ public:
     Time posted();
     /// The segment that the arrays lie in.
     Mapping const& memory() const { return *segment_; }
-    /// Sleeps until the bell rings again or it is that time; may return early.
+    /// Sleeps until the bell rings again or it is that time; may return early. Whom a knock has woken stays awake a
+    /// little for the ring.
     void wait(Time until) const;
 
 private:
     std::uint32_t bell();
+    bool is_in_the_way() const;
 
     std::shared_ptr<Mapping const> segment_;
     MailboxPage const* page_;
