@@ -71,6 +71,17 @@ TEST_F(RankFault, DifferentStepsAreRefused)
     EXPECT_THAT(words, Each(AllOf(StartsWith("peer: "), HasSubstr("must take the same steps"))));
 }
 
+TEST_F(RankFault, DifferentFieldsAreRefused)
+{
+    start(2);
+    client->connect_first([](ClientOptions& options) { options.wants = {field::void_fraction}; });
+
+    auto const words = client->on_all([&](std::size_t rank) { client->begin(rank); });
+
+    EXPECT_THAT(served.get(), AllOf(StartsWith("protocol: "), HasSubstr("rank 1"), HasSubstr("differs from")));
+    EXPECT_THAT(words, Each(HasSubstr("differs from that of rank 0")));
+}
+
 TEST_F(RankFault, DifferentFluidsAreRefused)
 {
     start(2);

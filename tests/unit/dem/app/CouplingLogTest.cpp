@@ -111,12 +111,32 @@ TEST_F(CouplingLogOf, ARunWritesARowForEachStepThatIsOver)
         for (auto const& [name, value] : values)
             EXPECT_EQ(rows[row].at(name), value) << name << " of step " << row + 1;
     };
-    expect(0, {{"step", 1}, {"time", 0}, {"dt", dt}, {"dem_steps", 10}, {"dem", 1.75}, {"cfd", 4}, {"server_waiting", 0.25},
-               {"client_waiting", 2}, {"exchange", 0.5}, {"exchange_bytes", 600}, {"lag_force", 0},
-               {"lag_solid_fraction", 0}, {"passes", 1}, {"residual", 0.125}});
-    expect(1, {{"step", 2}, {"time", dt}, {"dt", dt}, {"dem_steps", 20}, {"dem", 4.75}, {"cfd", 2},
-               {"server_waiting", 1.75}, {"client_waiting", 0.5}, {"exchange", 0.25}, {"exchange_bytes", 300},
-               {"passes", 3}, {"residual", 0.0625}});
+    expect(0, {{"step", 1},
+               {"time", 0},
+               {"dt", dt},
+               {"dem_steps", 10},
+               {"dem", 1.75},
+               {"cfd", 4},
+               {"server_waiting", 0.25},
+               {"client_waiting", 2},
+               {"exchange", 0.5},
+               {"exchange_bytes", 600},
+               {"lag_force", 0},
+               {"lag_solid_fraction", 0},
+               {"passes", 1},
+               {"residual", 0.125}});
+    expect(1, {{"step", 2},
+               {"time", dt},
+               {"dt", dt},
+               {"dem_steps", 20},
+               {"dem", 4.75},
+               {"cfd", 2},
+               {"server_waiting", 1.75},
+               {"client_waiting", 0.5},
+               {"exchange", 0.25},
+               {"exchange_bytes", 300},
+               {"passes", 3},
+               {"residual", 0.0625}});
     EXPECT_GT(rows[1].at("lag_force"), 0) << "of the first pass: the solid of later ones is close to it";
 }
 
