@@ -35,8 +35,8 @@ struct RecordOf : testing::Test
         EXPECT_TRUE(fluid.envelope.fluid_state().has_previous_times());
         return message::unpack_times(fluid.envelope.fluid_state().previous_times());
     }
-    /// Of a serial step from 10 s to 20 s in begin_step(), of which 4 s were waiting, with the fluid sent and its answer
-    /// there at these times [s].
+    /// Of a serial step from 10 s to 20 s in begin_step(), of which 4 s were waiting, with the fluid sent and its
+    /// answer there at these times [s].
     ClientTimes waited(double sent, double arrival)
     {
         record.began(3, at(10), at(20));

@@ -177,7 +177,10 @@ TEST(Ranks, RankZeroHasTheServerSaveForAll)
             client.step_of(rank, 1);
             client.clients[rank].end_step();
             EXPECT_EQ(client.clients[rank].welcome().saves_checkpoints, rank == 0);
-            if (rank == 0) EXPECT_EQ(client.clients[0].save_checkpoint(1e-3, 0).name, "first");
+            if (rank == 0)
+            {
+                EXPECT_EQ(client.clients[0].save_checkpoint(1e-3, 0).name, "first");
+            }
             client.step_of(rank, 2);
             client.clients[rank].end_step();
             client.clients[rank].finish("done");
