@@ -60,10 +60,11 @@ def decompose(folder: Path, ranks: int, restart: Restart | None) -> str:
     # Fields go through text twice, and a restart must find every digit.
     with (folder / "system" / "controlDict").open("a") as text:
         text.write("\nwritePrecision 17; // --ranks: the last entry counts\n")
-    if restart and restart.fluid:
-        tool("decomposePar", ["-time", restart.fluid.name, "-copyUniform"], folder)
+    if restart and restart.state:
+        time = restart.state.fluid.name
+        tool("decomposePar", ["-time", time, "-copyUniform"], folder)
         for part in processors(folder):
-            list_files(part / restart.fluid.name)
+            list_files(part / time)
     else:
         tool("decomposePar", [], folder)
     return f"the mesh is cut for {ranks} ranks, {how}"
