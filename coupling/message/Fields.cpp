@@ -54,13 +54,6 @@ std::string not_finite_text(std::string const& name, unsigned components, Span<d
     return "field \"" + name + "\" has " + number_text(values[i]) + " in cell " + std::to_string(i / components);
 }
 
-bool is_known_finite(Message const& message, Span<double const> values)
-{
-    auto const end = message.arrays.begin() + static_cast<std::ptrdiff_t>(message.finite);
-    return std::any_of(message.arrays.begin(), end,
-                       [&](transport::Frame const& frame) { return frame.data() == values.data(); });
-}
-
 template <class Fields>
 void check_size(FieldEntry<Fields> const& entry, Span<double const> values, std::size_t cell_count)
 {
@@ -154,6 +147,16 @@ bool pack_rows(Unfilled const& field, v1::ArrayHeader const& header, transport::
     refuse_divergence(header.name(), header.components(), field.values, *i);
 }
 
+bool is_real(v1::ArrayHeader const& header)
+{
+    return header.type() == v1::ELEMENT_TYPE_F64 || header.type() == v1::ELEMENT_TYPE_F32;
+}
+
+Span<double const> numbers_of(transport::Frame const& frame)
+{
+    return {static_cast<double const*>(frame.data()), frame.size() / sizeof(double)};
+}
+
 bool is_used_in_place(v1::ArrayHeader const& header)
 {
     return header.dense() && header.type() != v1::ELEMENT_TYPE_F32 && header.compression() == v1::COMPRESSION_NONE;
@@ -166,8 +169,7 @@ int position_of(Message const& message, char const* name, unsigned components)
     auto const found = std::find_if(headers.begin(), headers.end(),
                                     [&](v1::ArrayHeader const& header) { return header.name() == name; });
     if (found == headers.end()) refuse(who() + " is missing");
-    if (found->type() != v1::ELEMENT_TYPE_F64 && found->type() != v1::ELEMENT_TYPE_F32)
-        refuse(who() + " has another element type than docs/protocol.md tells");
+    if (!is_real(*found)) refuse(who() + " has another element type than docs/protocol.md tells");
     if (found->components() != components)
         refuse(who() + " has " + std::to_string(found->components()) + " components instead of " +
                std::to_string(components));
@@ -238,18 +240,22 @@ void fill(Message& message, std::function<void(std::size_t)> const& filled)
     message.unfilled.clear();
 }
 
-void look_through(Message& message, std::size_t count)
+template <class Fields>
+void take_in(Message& message, std::size_t count, FieldChoice<Fields> const& choice, std::size_t cell_count,
+             FieldStore const& store)
 {
-    for (; message.finite < std::min(count, message.arrays.size()); ++message.finite)
+    std::size_t const most = std::min({count, message.arrays.size(), choice.size()});
+    for (std::size_t k = message.taken_in.size(); k < most; ++k)
     {
-        std::size_t const k = message.finite;
-        transport::Frame const& frame = message.arrays[k];
-        bool const is_real = message.envelope.arrays(static_cast<int>(k)).type() == v1::ELEMENT_TYPE_F64;
-        bool const is_dense = message.envelope.arrays(static_cast<int>(k)).dense();
-        // What is not used in place is looked at while it is copied.
-        if (is_real && is_dense &&
-            !all_finite({static_cast<double const*>(frame.data()), frame.size() / sizeof(double)}))
+        v1::ArrayHeader const& header = message.envelope.arrays(static_cast<int>(k));
+        // What is not as we would lay it out is left to view_fields(), which tells what is wrong.
+        if (header.name() != choice[k].name || header.components() != choice[k].components || !is_real(header)) return;
+        Span<double const> values = numbers_of(message.arrays[k]);
+        if (!is_used_in_place(header))
+            values = store.receive(message, static_cast<int>(k), cell_count);
+        else if (!all_finite(values))
             return;
+        message.taken_in.push_back(values);
     }
 }
 
@@ -273,13 +279,15 @@ Fields view_fields(Message const& message, FieldChoice<Fields> const& choice, st
     for (auto const& entry : choice)
     {
         int const k = position_of(message, entry.name, entry.components);
+        bool const is_taken_in = static_cast<std::size_t>(k) < message.taken_in.size();
         if (!is_used_in_place(message.envelope.arrays(k)))
         {
-            fields.*entry.values = store.receive(message, k, cell_count);
+            fields.*entry.values =
+                is_taken_in ? message.taken_in[static_cast<std::size_t>(k)] : store.receive(message, k, cell_count);
             continue;
         }
         Span<double const> const values = view_array<double>(message, entry.name, entry.components, cell_count);
-        if (auto const i = is_known_finite(message, values) ? std::nullopt : first_not_finite(values))
+        if (auto const i = is_taken_in ? std::nullopt : first_not_finite(values))
             refuse(describe(message) + ": " + not_finite_text(entry.name, entry.components, values, *i));
         fields.*entry.values = values;
     }
@@ -292,6 +300,8 @@ template void lay_out_fields(Message&, FieldChoice<FluidFields> const&, FluidFie
 template void lay_out_fields(Message&, FieldChoice<SolidFields> const&, SolidFields const&, std::size_t,
                              transport::SendMemory const&, FieldLayout const&);
 template void check_fields(FieldChoice<SolidFields> const&, SolidFields const&, std::size_t);
+template void take_in(Message&, std::size_t, FieldChoice<FluidFields> const&, std::size_t, FieldStore const&);
+template void take_in(Message&, std::size_t, FieldChoice<SolidFields> const&, std::size_t, FieldStore const&);
 template std::size_t shared_bytes(FieldChoice<FluidFields> const&, std::size_t, bool);
 template std::size_t shared_bytes(FieldChoice<SolidFields> const&, std::size_t, bool);
 template FluidFields view_fields(Message const&, FieldChoice<FluidFields> const&, std::size_t, FieldStore const&);

@@ -67,9 +67,11 @@ void check_fields(FieldChoice<Fields> const& choice, Fields const& fields, std::
 /// Copies what is unfilled; calls filled(n) when n arrays of the message are. Fault::user for a NaN or infinity.
 void fill(Message& message, std::function<void(std::size_t)> const& filled = {});
 
-/// Looks for NaN and infinity in the first `count` arrays, as far as that was not done; tells in message.finite how far
-/// there are none.
-void look_through(Message& message, std::size_t count);
+/// Takes in the first `count` arrays of a message that is still being packed, as far as that was not done and they are
+/// the chosen ones: looks for NaN and infinity, and copies what is not used in place. Fault::protocol as view_fields().
+template <class Fields>
+void take_in(Message& message, std::size_t count, FieldChoice<Fields> const& choice, std::size_t cell_count,
+             FieldStore const& store);
 
 /// Bytes of shared memory that one message with the chosen fields takes. any_size: small ones lie there, too, beside
 /// large ones.

@@ -34,7 +34,9 @@ struct Message
     v1::Envelope envelope;
     transport::Frames arrays;
     std::vector<Unfilled> unfilled;  ///< until fill()
-    std::size_t finite = 0;          ///< so many arrays at the front are known to have neither NaN nor infinity
+    /// Of so many arrays at the front, what became of them while the rest was packed: they have neither NaN nor
+    /// infinity, and those that are not used in place lie in a FieldStore.
+    std::vector<Span<double const>> taken_in = {};
 
     Kind kind() const { return envelope.kind_case(); }
 };

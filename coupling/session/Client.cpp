@@ -153,7 +153,9 @@ void Client::Impl::send_mesh(MeshView const& mesh)
     session::Letter const letter = receive("MeshAccepted");
     session.read([&] { message::check_mesh_accepted(letter.message, mesh.cell_count); });
     session.use(shared.use_if_confirmed(letter.message, terms.memory));
-    session.use(session.read([&] { return shared.map_announced(letter.message); }));
+    session.use(session.read([&] { return shared.map_announced(letter.message); }),
+                [this](message::Message& solid_to_be, std::size_t packed)
+                { message::take_in(solid_to_be, packed, terms.solid, terms.cell_count, terms.store); });
     take_solid();
     record.log().write(LogLevel::info, "mesh_accepted", "the server holds the mesh",
                        {{"cells", static_cast<double>(mesh.cell_count)}});
@@ -190,6 +192,7 @@ Event Client::Impl::begin_event() const
 void Client::Impl::send_fluid(Event call, FluidState const& given, Time entered)
 {
     session.require(call);
+    session.announce_soon();
     if (call == Event::iterate_step) record.ended(entered, entered, 0);
     fluid = given;
     message::Message message = message::lay_out(fluid, terms);

@@ -68,6 +68,7 @@ struct Server::Impl : session::Exchange
     session::Letter receive(std::string const& awaited);
     void complete(FluidState& fluid);
     void save_checkpoint(session::Letter const& letter);
+    void wake_client();
     bool said_goodbye(session::Letter const& letter);
     void check_order(FluidState const& fluid);
     std::optional<std::string> stop_reason();
@@ -99,6 +100,7 @@ struct Server::Impl : session::Exchange
     StepCells cells;         ///< of the solid that is sent next
     double busy_before = 0;  ///< the last fluid lay here unread for so long [s]
     Time handed_out;         ///< when receive_fluid() returned
+    double waking = 0;       ///< what it took since then to wake the client up [s]
     ServerTimes times;       ///< of the last step
     std::optional<LastClientStep> last_client_step;
     std::mutex stop_mutex;  ///< request_stop() may come from another thread
@@ -223,8 +225,10 @@ Mesh Server::Impl::receive_mesh()
     session::Letter const letter = receive("Mesh");
     if (said_goodbye(letter))
         throw CouplingError(Fault::peer, session.peer_name() + " said goodbye before it sent its mesh: " + goodbye);
-    session.use(session.read(
-        [&] { return shared.map_announced(letter.message); }));  // first, so that no fault leaves its name behind
+    // First, so that no fault leaves its name behind.
+    session.use(session.read([&] { return shared.map_announced(letter.message); }),
+                [this](message::Message& fluid, std::size_t packed)
+                { message::take_in(fluid, packed, terms.fluid, terms.cell_count, terms.store); });
     Mesh mesh = session.read([&] { return message::unpack_mesh(letter.message); });
     terms.cell_count = static_cast<std::size_t>(mesh.cell_count);
     session.limit_arrays(message::field_bytes(terms.fluid, terms.cell_count));
@@ -304,11 +308,19 @@ void Server::Impl::save_checkpoint(session::Letter const& letter)
     session.send(std::move(answer));
 }
 
+void Server::Impl::wake_client()
+{
+    Time const entered = Clock::now();
+    session.announce_soon();
+    waking += seconds_between(entered, Clock::now());
+}
+
 void Server::Impl::send_solid(SolidFields const& fields, Timings const& timings)
 {
     times.answering = clock_now();
-    double const busy = busy_before + seconds_between(handed_out, Clock::now());
+    double const busy = busy_before + seconds_between(handed_out, Clock::now()) - std::exchange(waking, 0);
     session.require(Event::send_solid);
+    session.announce_soon();
     message::Message solid = message::lay_out(message::SolidState{fields, timings, busy, stop_reason(), cells}, terms);
     solid.envelope.set_iteration(pass);
     message::put({times.arrived, times.answering, options.clock_origin, 0}, solid);
@@ -414,6 +426,11 @@ std::string const& Server::goodbye_reason() const
 void Server::complete(FluidState& fluid)
 {
     impl_->guard([&] { impl_->complete(fluid); });
+}
+
+void Server::wake_client()
+{
+    if (!impl_->ranks) impl_->wake_client();
 }
 
 void Server::send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells)

@@ -111,6 +111,11 @@ void Session::choose_session_number()
     while (session_number_ == 0);
 }
 
+void Session::announce_soon()
+{
+    if (outbox_) outbox_->knock();
+}
+
 void Session::prepare(Message& message)
 {
     stamp(message);
@@ -215,7 +220,7 @@ std::optional<Letter> Session::take_post()
             message::attach_shared(*incoming_, &postbox_->memory());
         }
         if (!incoming_) return std::nullopt;
-        auto const packing = postbox_->packing([&](std::size_t packed) { message::look_through(*incoming_, packed); });
+        auto const packing = postbox_->packing([&](std::size_t packed) { take_in_(*incoming_, packed); });
         if (packing == transport::Postbox::Packing::going_on) return std::nullopt;
         Message message = std::move(*incoming_);
         incoming_.reset();

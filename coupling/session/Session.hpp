@@ -61,6 +61,8 @@ public:
     /// Server: the session number that every later message carries.
     void choose_session_number();
 
+    /// A step's message comes soon: whoever sleeps over there may wake up meanwhile.
+    void announce_soon();
     /// Fills the fields of a step, which send() then sends; where it can, the peer reads the envelope meanwhile.
     /// Fault::user if a number cannot be sent: nothing has been sent, and nothing happens.
     void prepare(message::Message& message);
@@ -68,7 +70,13 @@ public:
 
     /// From now on messages that may be posted go through these; null: they do not.
     void use(std::unique_ptr<transport::Outbox> outbox) { outbox_ = std::move(outbox); }
-    void use(std::unique_ptr<transport::Postbox> postbox) { postbox_ = std::move(postbox); }
+    /// take_in(message, n) is called while the peer packs a message, n of whose arrays are there; it throws
+    /// Fault::protocol for what cannot be used.
+    void use(std::unique_ptr<transport::Postbox> postbox, std::function<void(message::Message&, std::size_t)> take_in)
+    {
+        postbox_ = std::move(postbox);
+        take_in_ = std::move(take_in);
+    }
 
     /// From now on a message of the peer with more bytes in its arrays is refused unread. It may always have a few.
     void limit_arrays(std::size_t bytes);
@@ -161,6 +169,7 @@ private:
     std::unique_ptr<transport::Postbox> postbox_;  ///< null: everything comes through the channel
     bool is_announced_ = false;                    ///< prepare() told the peer
     std::optional<message::Message> incoming_;     ///< announced by the peer, perhaps not complete yet
+    std::function<void(message::Message&, std::size_t)> take_in_;
     std::function<void()> watch_;
     std::unique_ptr<transport::Channel> channel_;  ///< last: its thread uses the rest
 };

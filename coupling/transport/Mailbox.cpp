@@ -36,8 +36,15 @@ namespace
     throw CouplingError(Fault::protocol, problem);
 }
 
-/// Longer than it takes to pack the fields of a hundred thousand cells.
-auto constexpr patience = std::chrono::microseconds(500);
+/// Who is awake waits so long for the next sign of the peer before it sleeps: longer than it takes to lay a message
+/// out, or to pack a field of ten thousand cells. No longer, as it may have been woken on the very processor that the
+/// peer needs.
+auto constexpr patience = std::chrono::microseconds(100);
+
+void wake(std::atomic<std::uint32_t> const& bell)
+{
+    ::syscall(SYS_futex, &bell, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
+}
 
 /// Where the mailbox of a segment is. A segment's size is a multiple of a cache line, or it is not one of ours.
 unsigned char* place_in(Mapping const& memory)
@@ -57,7 +64,12 @@ Outbox::Outbox(std::shared_ptr<OwnSegment const> segment)
 void Outbox::ring()
 {
     page_->bell.fetch_add(1, std::memory_order_release);
-    ::syscall(SYS_futex, &page_->bell, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
+    wake(page_->bell);
+}
+
+void Outbox::knock()
+{
+    wake(page_->bell);
 }
 
 void Outbox::announce(Frame const& envelope)
@@ -116,9 +128,15 @@ std::optional<Frame> Postbox::look()
 
 Postbox::Packing Postbox::packing(std::function<void(std::size_t)> const& meanwhile)
 {
-    for (Time const until = Clock::now() + patience; bell() == announced_;)
+    std::uint32_t packed = 0;
+    for (Time until = Clock::now() + patience; bell() == announced_;)
     {
-        if (meanwhile) meanwhile(page_->packed.load(std::memory_order_acquire));
+        if (std::uint32_t const now = page_->packed.load(std::memory_order_acquire); now != packed)
+        {
+            packed = now;
+            if (meanwhile) meanwhile(packed);
+            until = Clock::now() + patience;
+        }
         if (Clock::now() > until) return Packing::going_on;
     }
     return seen_ == announced_ + 1 && page_->complete != 0 ? Packing::complete : Packing::abandoned;
@@ -137,8 +155,11 @@ void Postbox::wait(Time until) const
     timespec time{};
     time.tv_sec = static_cast<std::time_t>(left / 1'000'000'000);
     time.tv_nsec = static_cast<long>(left % 1'000'000'000);
-    // Returns at once if the bell has rung since take() looked.
-    ::syscall(SYS_futex, &page_->bell, FUTEX_WAIT, seen_, &time, nullptr, 0);
+    // Returns at once if the bell has rung since look().
+    bool const woken = ::syscall(SYS_futex, &page_->bell, FUTEX_WAIT, seen_, &time, nullptr, 0) == 0;
+    if (!woken) return;
+    for (Time const end = Clock::now() + patience; Clock::now() < end;)
+        if (page_->bell.load(std::memory_order_acquire) != seen_) return;
 }
 
 }  // namespace gimdem::coupling::transport

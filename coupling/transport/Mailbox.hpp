@@ -29,6 +29,8 @@ class Outbox
 public:
     explicit Outbox(std::shared_ptr<OwnSegment const> segment);
 
+    /// Wakes the peer up: a message is about to be announced.
+    void knock();
     /// Rings for an envelope of max_posted_bytes at most whose arrays are packed next.
     void announce(Frame const& envelope);
     /// So many arrays of it are packed.
@@ -68,7 +70,8 @@ public:
     Time posted();
     /// The segment that the arrays lie in.
     Mapping const& memory() const { return *segment_; }
-    /// Sleeps until the bell rings again or it is that time; may return early.
+    /// Sleeps until the bell rings again or it is that time; may return early. Whom a knock has woken stays awake a
+    /// little for the ring.
     void wait(Time until) const;
 
 private:

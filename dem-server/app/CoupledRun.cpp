@@ -186,6 +186,7 @@ void CoupledRun::couple()
         observer_.begin_step(*fluid);
         is_in_step_ = true;
         StepReport report = engine_.advance(fluid->step, fluid->fields, whole(*fluid));
+        server_.wake_client();
         is_in_step_ = false;
         report.timings.output = output_time;
         if (interrupted()) server_.request_stop("interrupted by the user");

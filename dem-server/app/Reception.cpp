@@ -82,7 +82,8 @@ bool Reception::meet_again(CoupledRun& run, double grace_time, std::string const
         {
             if (!server_)  // the address is taken
             {
-                server_.emplace(coupling::ServerOptions{.endpoint = "tcp://127.0.0.1:*", .name = "gimdem-server"});
+                server_.emplace(coupling::ServerOptions{
+                    .endpoint = "tcp://127.0.0.1:*", .name = "gimdem-server", .keys = {}, .log = {}});
                 throw;
             }
             server_->abort(error.what());

@@ -31,13 +31,19 @@ using message::Kind;
     std::abort();
 }
 
-message::Terms terms()
+message::Terms make_terms()
 {
     message::Terms terms;
     terms.fluid = message::choose_fluid_fields({field::velocity, field::pressure}, Fault::user);
     terms.solid = message::choose_solid_fields({field::void_fraction, field::drag_coefficient, field::drag_momentum},
                                                Fault::user);
     terms.cell_count = 2;
+    return terms;
+}
+
+message::Terms const& agreed()
+{
+    static message::Terms const terms = make_terms();
     return terms;
 }
 
@@ -54,7 +60,6 @@ double sum_of(Fields const& fields, Table const& table)
 
 void unpack(message::Message const& message)
 {
-    static message::Terms const agreed = terms();
     switch (message.kind())
     {
         case Kind::kHello:
@@ -71,10 +76,10 @@ void unpack(message::Message const& message)
             message::check_mesh_accepted(message, 2);
             break;
         case Kind::kFluidState:
-            sum_of(message::unpack_fluid_state(message, agreed).fields, message::fluid_fields);
+            sum_of(message::unpack_fluid_state(message, agreed()).fields, message::fluid_fields);
             break;
         case Kind::kSolidState:
-            sum_of(message::unpack_solid_state(message, agreed).fields, message::solid_fields);
+            sum_of(message::unpack_solid_state(message, agreed()).fields, message::solid_fields);
             break;
         case Kind::kHeartbeat:
             message::unpack_heartbeat(message);
@@ -136,7 +141,7 @@ void run(Bytes input)
     check_sent_on(message);
     message::announced_segment(message);
     message::attach_shared(message, posted ? &shared_memory() : nullptr);
-    if (posted) message::look_through(message, message.arrays.size());
+    if (posted) message::take_in(message, message.arrays.size(), agreed().fluid, agreed().cell_count, agreed().store);
     unpack(message);
 }
 

@@ -129,6 +129,9 @@ public:
     /// afterwards it is complete. Takes a round trip.
     void complete(FluidState& fluid);
 
+    /// The solid will be sent in a moment: a client that sleeps beside us may wake up meanwhile. Never needed.
+    void wake_client();
+
     /// @pre receive_fluid. Answers it.
     void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells = {});
 

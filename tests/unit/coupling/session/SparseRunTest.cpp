@@ -137,9 +137,13 @@ TEST_P(SparseRun, GivesEveryCellItsNumbersAndTheOthersNone)
     }
     double constexpr whole_bytes = (6 + 5) * 8.0 * cells;
     if (!way.client_can)
+    {
         EXPECT_GT(bytes, whole_bytes);
+    }
     else if (way.schedule == Schedule::overlapped)
+    {
         EXPECT_LT(bytes, whole_bytes / 4);  // at most 580 cells and 8 of 11 numbers in each, envelopes of 400 bytes
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(

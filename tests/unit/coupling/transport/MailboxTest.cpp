@@ -67,7 +67,7 @@ TEST_F(Mailbox, TellsHowManyArraysArePacked)
     {
         if (told.empty() || told.back() != arrays) told.push_back(arrays);
     };
-    for (int message = 0; message < 2; ++message)  // it starts at 0 each time
+    for (int message = 0; message < 2; ++message)  // it starts anew each time
     {
         told.clear();
         outbox.announce(frame("arrays"));
@@ -79,7 +79,7 @@ TEST_F(Mailbox, TellsHowManyArraysArePacked)
         }
         outbox.finish();
         EXPECT_EQ(postbox.packing(note), Packing::complete);
-        EXPECT_THAT(told, testing::ElementsAre(0, 1, 3));
+        EXPECT_THAT(told, testing::ElementsAre(1, 3));
     }
 }
 
