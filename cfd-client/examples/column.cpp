@@ -3,7 +3,8 @@
 /// column.c and column.py are the same solver in C and in Python.
 ///
 /// Usage: column-cpp <endpoint> <run folder> [folder of keys] [--restart <state>]; the run folder has constant/column.
-/// Writes column.csv (a line a step), profile.csv (a line a cell, at the end) and states/, from which it goes on, there.
+/// Writes column.csv (a line a step), profile.csv (a line a cell, at the end) and states/, from which it goes on,
+/// there.
 ///
 /// Volume-averaged equations of a gas of constant density (theory.md, F.1 and F.2) in one dimension, where friction at
 /// the walls and inertia are neglected: with q the superficial velocity and S the force of the particles per volume,

@@ -168,6 +168,7 @@ void CoupledRun::go_on(coupling::ClientInfo const& client)
         server_.reject_mesh("it is not the mesh of before");
         throw UserError("the client has come back with another mesh (the particles go on on that of before)");
     }
+    bytes_before_ += bytes_;
     engine_.forget_particles();
     reached_.reset();
     load(*file);
@@ -244,7 +245,7 @@ void CoupledRun::finish_records()
 {
     coupling_log_.add_to(log_.summary());
     observer_.finish(log_.summary());
-    log_.finish(server_.bytes());
+    log_.finish(bytes_before_ + server_.bytes());
 }
 
 std::function<coupling::FluidFields()> CoupledRun::whole(coupling::FluidState& fluid)
@@ -268,7 +269,8 @@ coupling::StepCells CoupledRun::cells_to_send(double time)
 double CoupledRun::begin_step(coupling::FluidState const& fluid, double waited)
 {
     accept();
-    coupling_log_.arrived(fluid, waited, server_.bytes());
+    bytes_ = server_.bytes();
+    coupling_log_.arrived(fluid, waited, bytes_);
     if (at_.step == start_.step) check_start(fluid.step);
     double const output_time = log_.sample(fluid, engine_);
     if (schedule_ == coupling::Schedule::iterated) engine_.remember();

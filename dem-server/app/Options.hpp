@@ -24,10 +24,10 @@ struct Options
     std::optional<std::filesystem::path> keys;     ///< folder, docs/security.md
     std::optional<std::filesystem::path> restart;  ///< checkpoint to go on from
     output::TraceChoice trace;
-    std::vector<std::string> encodings;             ///< of the fields; empty: as the case file says
-    std::optional<std::string> status;              ///< ask the server at this endpoint how its run stands, and stop
-    bool json = false;                              ///< the answer for programs
-    double patience = 5;                            ///< for the answer [s]
+    std::vector<std::string> encodings;  ///< of the fields; empty: as the case file says
+    std::optional<std::string> status;   ///< ask the server at this endpoint how its run stands, and stop
+    bool json = false;                   ///< the answer for programs
+    double patience = 5;                 ///< for the answer [s]
 };
 
 /// Empty when the program has nothing to do (help, version, wrong usage): exit_code tells the status.

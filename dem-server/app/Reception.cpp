@@ -28,10 +28,7 @@ coupling::Encodings encodings_of(CouplingSettings const& settings)
 
 Reception::Reception(Case const& settings, std::filesystem::path const& folder, RunEvents& events,
                      coupling::Server::CheckpointSaver saver)
-    : settings_(settings),
-      folder_(std::filesystem::absolute(folder)),
-      events_(events),
-      saver_(std::move(saver))
+    : settings_(settings), folder_(std::filesystem::absolute(folder)), events_(events), saver_(std::move(saver))
 {
     open(settings.coupling.endpoint, settings.coupling.connect_time);
 }

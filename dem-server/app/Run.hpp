@@ -11,8 +11,9 @@ namespace gimdem::app
 {
 
 /// A whole run: wait for a client, take its mesh, settle or load the bed, couple until the client says goodbye. Results
-/// and checkpoints go to `folder`. With `restart`, it goes on from that checkpoint instead of a bed. `trace`: how much of
-/// the run goes to trace.json. Throws UserError or coupling::CouplingError; the client is told why before either leaves.
+/// and checkpoints go to `folder`. With `restart`, it goes on from that checkpoint instead of a bed. `trace`: how much
+/// of the run goes to trace.json. Throws UserError or coupling::CouplingError; the client is told why before either
+/// leaves.
 void run(Case const& settings, std::filesystem::path const& folder, std::optional<std::filesystem::path> const& restart,
          output::TraceChoice const& trace);
 

@@ -47,7 +47,8 @@ public:
         expect_ok(gimdem_client_connect(client_, &properties, nullptr));
         std::vector<gimdem_patch> patches;
         for (Patch const& patch : mesh.patches)
-            patches.push_back({patch.name.c_str(), static_cast<std::int32_t>(patch.kind) + 1, patch.start_face, patch.face_count, 0});
+            patches.push_back(
+                {patch.name.c_str(), static_cast<std::int32_t>(patch.kind) + 1, patch.start_face, patch.face_count, 0});
         gimdem_mesh view{};
         view.struct_size = sizeof view;
         view.points = mesh.points.data();

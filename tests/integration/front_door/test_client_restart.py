@@ -50,14 +50,19 @@ class ClientRestarts(ColumnCaseTest):
         self.assertRegex(err, rf"(?m)^client: +{name} was killed by signal 9 \(SIGKILL\); started again from step_")
         return folder
 
-    def end_of(self, folder: Path) -> dict[str, bytes]:
+    def table(self, file: Path) -> list[list[float]]:
+        """The rows, as the same numbers look different in Python."""
+        return [[float(word) for word in line.split(",")] for line in self.lines(file)[1:]]
+
+    def end_of(self, folder: Path) -> dict[str, object]:
         """What a run ends with; column.csv and bed.csv by their last lines, as a run that goes on has only these."""
         checkpoint = sorted((folder / "checkpoints").iterdir())[-1]
         state = sorted((folder / "states").glob("*.state"))[-1]
-        own = [line for line in self.lines(state) if not line.startswith("session ")]
-        return {checkpoint.name: checkpoint.read_bytes(), state.name: "\n".join(own).encode(),
-                "profile.csv": (folder / "profile.csv").read_bytes(),
-                **{name: self.lines(folder / name)[-1].encode() for name in ("column.csv", "bed.csv")}}
+        own = [word for line in self.lines(state) if not line.startswith("session ") for word in line.split()]
+        return {checkpoint.name: checkpoint.read_bytes(),
+                state.name: [float(word) if word[0] in "-0123456789" else word for word in own],
+                "profile.csv": self.table(folder / "profile.csv"),
+                **{name: self.table(folder / name)[-1] for name in ("column.csv", "bed.csv")}}
 
     def check(self, schedule: str, clients: tuple[str, ...]) -> None:
         whole = self.run_client("column-cpp", "--until", UNTIL, "--schedule", schedule)
@@ -65,9 +70,10 @@ class ClientRestarts(ColumnCaseTest):
         for name in clients:
             with self.subTest(name):
                 cut = self.cut_run(name, number + 1, schedule)
-                for table in ("column.csv", "bed.csv"):
-                    self.assertEqual(self.lines(cut / table), self.lines(whole / table)[:len(self.lines(cut / table))])
-                self.assertEqual(len(self.lines(cut / "column.csv")), 1 + 30)
+                for file in ("column.csv", "bed.csv"):
+                    rows = self.table(cut / file)
+                    self.assertEqual(rows, self.table(whole / file)[:len(rows)])
+                self.assertEqual(len(self.table(cut / "column.csv")), 30)
                 end = self.run_client(name, "--restart", "latest", "--until", UNTIL, "--schedule", schedule)
                 self.assertEqual(self.figures(end)["coupling_steps"], 10)
                 self.assertEqual(self.end_of(end), self.end_of(whole))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import signal
 import unittest
 from pathlib import Path
@@ -28,6 +27,13 @@ class Grace(RealCaseTest):
         self.wait_until(lambda: steps_of(run) >= steps, f"{steps} steps")
         os.kill(processes_of(self.case)["gimdemFoam"], signal_number)
 
+    @staticmethod
+    def table(run: Path) -> list[list[str]]:
+        """bed.csv without what the client tells of the step before, which a client that goes on does not know."""
+        rows = [line.split(",") for line in (run / "bed.csv").read_text().splitlines()]
+        last = rows[0].index("particles [1]")
+        return [row[:last + 1] for row in rows]
+
     def run_and_kill(self, signal_number: int) -> tuple[int, str]:
         """A run whose client is killed behind its first checkpoint; returns exit code and stderr."""
         process = self.start("run", self.case, "--until", "0.004")
@@ -44,14 +50,15 @@ class Grace(RealCaseTest):
                               r"step_0000000[123]0_at_0.00[123].h5, 1 of 2")
         whole, other = (self.case / "runs" / number for number in ("0001", "0002"))
         self.assertEqual(differences(end_of(whole), end_of(other)), [])
-        self.assertEqual((whole / "bed.csv").read_text(), (other / "bed.csv").read_text())
-        self.assertEqual(self.figures(other)["coupling_steps"], 40)
+        self.assertEqual(self.table(whole), self.table(other), "rows behind the checkpoint must not come twice")
+        self.assertEqual(steps_of(other), steps_of(whole))
+        # Steps that came twice count twice, and so do their bytes; two handshakes and meshes are not half of that.
+        ratio = self.figures(other)["bytes_per_step"] / self.figures(whole)["bytes_per_step"]
+        print(f"figure: grace_bytes_per_step_ratio = {ratio:.4g} [1]")
+        self.assertLess(abs(ratio - 1), 0.5)
 
     def test_solver_that_diverges_is_not_started_again(self) -> None:
-        solution = self.case / "system" / "fvSolution"
-        text = solution.read_text()
-        self.assertEqual(len(re.findall(r"(?m)^PIMPLE\s*\{", text)), 1)
-        solution.write_text(re.sub(r"(?m)^(PIMPLE\s*\{)", r"\1 maxVelocity 1e-3;", text))
+        substitute(self.case / "system" / "fvSolution", r"^ *maxVelocity .*$", "    maxVelocity 1e-3;")
         code, _, err = self.gimdem("run", self.case, "--until", "0.004", patience=120)
         self.assertEqual(code, 1, err)
         self.assert_one_error(err, "the fluid diverged")
