@@ -20,9 +20,11 @@ public:
     virtual std::string const& endpoint() const = 0;
     virtual ClientInfo wait_for_client(ServerTerms const& terms) = 0;
     virtual Mesh receive_mesh() = 0;
-    virtual void accept_mesh(SolidFields const& initial, Timings const& timings) = 0;
+    virtual void accept_mesh(SolidFields const& initial, Timings const& timings, StepCells const& cells) = 0;
     virtual std::optional<FluidState> receive_fluid() = 0;
-    virtual void send_solid(SolidFields const& fields, Timings const& timings) = 0;
+    virtual void complete(FluidState& fluid) = 0;
+    virtual void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells) = 0;
+    virtual void wake_client() = 0;
     virtual void request_stop(std::string const& reason) = 0;
 
     /// Tells the client why, and ends the session.

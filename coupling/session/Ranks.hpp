@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -14,9 +13,13 @@
 
 #include "message/Fields.hpp"
 #include "session/Exchange.hpp"
+#include "session/RankCells.hpp"
 
 namespace gimdem::coupling::session
 {
+
+/// "rank 1", for texts.
+std::string rank_text(std::size_t rank);
 
 /// Where the server listens for a rank, from 1 on: beside the socket file of rank 0, or at any free port.
 std::string endpoint_of_rank(std::string const& endpoint, std::int32_t rank);
@@ -39,9 +42,11 @@ public:
     std::string const& endpoint() const override { return parts_.front()->endpoint(); }
     ClientInfo wait_for_client(ServerTerms const& terms) override { return parts_.front()->wait_for_client(terms); }
     Mesh receive_mesh() override;
-    void accept_mesh(SolidFields const& initial, Timings const& timings) override;
+    void accept_mesh(SolidFields const& initial, Timings const& timings, StepCells const& cells) override;
     std::optional<FluidState> receive_fluid() override;
-    void send_solid(SolidFields const& fields, Timings const& timings) override;
+    void complete(FluidState& fluid) override;
+    void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells) override;
+    void wake_client() override;
     void request_stop(std::string const& reason) override;
     void abort(Fault fault, std::string const& reason) noexcept override;
 
@@ -53,13 +58,10 @@ public:
     bool has_failed() const override;
 
 private:
+    /// Runs a call; if one rank's session ends in it, so do the others, with the same reason.
     template <class Body>
     auto together(Body body) -> decltype(body());
     [[noreturn]] void fail(Fault fault, std::string const& text);
-    std::size_t cells_of(std::size_t rank) const;
-    SolidFields cut(SolidFields const& whole, std::size_t rank) const;
-    FluidFields join(std::vector<FluidState> const& states);
-    void check_solid(SolidFields const& fields) const;
     void check_same_step(std::vector<FluidState> const& states);
     void forward_stop();
 
@@ -67,10 +69,23 @@ private:
     Parts others_;
     std::string name_;  ///< of the client
     message::FieldChoice<SolidFields> wants_;
-    std::vector<std::int32_t> first_cell_;              ///< shape=(ranks + 1,)
-    std::map<std::string, std::vector<double>> fluid_;  ///< whole fields, which the spans of the last FluidState show
-    std::mutex stop_mutex_;                             ///< request_stop() may come from another thread
+    RankCells cells_;        ///< holds what the spans of the last FluidState show
+    std::mutex stop_mutex_;  ///< request_stop() may come from another thread
     std::optional<std::string> stop_;
 };
+
+template <class Body>
+auto Ranks::together(Body body) -> decltype(body())
+{
+    try
+    {
+        return body();
+    }
+    catch (CouplingError const& error)
+    {
+        if (has_failed()) abort(Fault::peer, error.what());
+        throw;
+    }
+}
 
 }  // namespace gimdem::coupling::session

@@ -2,6 +2,7 @@
 #include "transport/Mailbox.hpp"
 
 #include <linux/futex.h>
+#include <sched.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 #include <algorithm>
@@ -25,6 +26,7 @@ struct MailboxPage
     std::uint32_t complete;             ///< 0: the last message was abandoned
     std::atomic<std::uint32_t> packed;  ///< arrays of the present message
     unsigned char envelope[max_posted_bytes];
+    std::atomic<std::uint32_t> processor;  ///< that the sender runs on, + 1; 0: not known
 };
 static_assert(sizeof(MailboxPage) == mailbox_bytes && std::atomic<std::uint32_t>::is_always_lock_free);
 
@@ -36,15 +38,11 @@ namespace
     throw CouplingError(Fault::protocol, problem);
 }
 
-/// Who is awake waits so long for the next sign of the peer before it sleeps: longer than it takes to lay a message
-/// out, or to pack a field of ten thousand cells. No longer, as it may have been woken on the very processor that the
-/// peer needs.
-auto constexpr patience = std::chrono::microseconds(100);
-
-void wake(std::atomic<std::uint32_t> const& bell)
-{
-    ::syscall(SYS_futex, &bell, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
-}
+/// Who is awake waits so long for the next array before it sleeps: longer than it takes to pack a field of a hundred
+/// thousand cells.
+auto constexpr patience = std::chrono::microseconds(500);
+/// And so long from a knock to the ring: longer than it takes to lay a message out.
+auto constexpr patience_after_knock = std::chrono::microseconds(100);
 
 /// Where the mailbox of a segment is. A segment's size is a multiple of a cache line, or it is not one of ours.
 unsigned char* place_in(Mapping const& memory)
@@ -64,12 +62,18 @@ Outbox::Outbox(std::shared_ptr<OwnSegment const> segment)
 void Outbox::ring()
 {
     page_->bell.fetch_add(1, std::memory_order_release);
-    wake(page_->bell);
+    wake_reader();
 }
 
 void Outbox::knock()
 {
-    wake(page_->bell);
+    wake_reader();
+}
+
+void Outbox::wake_reader()
+{
+    page_->processor.store(static_cast<std::uint32_t>(::sched_getcpu() + 1), std::memory_order_relaxed);
+    ::syscall(SYS_futex, &page_->bell, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
 }
 
 void Outbox::announce(Frame const& envelope)
@@ -137,7 +141,7 @@ Postbox::Packing Postbox::packing(std::function<void(std::size_t)> const& meanwh
             if (meanwhile) meanwhile(packed);
             until = Clock::now() + patience;
         }
-        if (Clock::now() > until) return Packing::going_on;
+        if (is_in_the_way() || Clock::now() > until) return Packing::going_on;
     }
     return seen_ == announced_ + 1 && page_->complete != 0 ? Packing::complete : Packing::abandoned;
 }
@@ -146,6 +150,12 @@ Time Postbox::posted()
 {
     Time const told(std::chrono::nanoseconds(page_->posted));
     return last_ = std::clamp(told, last_, Clock::now());
+}
+
+/// Were we woken on the very processor that the sender was about to use?
+bool Postbox::is_in_the_way() const
+{
+    return page_->processor.load(std::memory_order_relaxed) == static_cast<std::uint32_t>(::sched_getcpu() + 1);
 }
 
 void Postbox::wait(Time until) const
@@ -158,7 +168,7 @@ void Postbox::wait(Time until) const
     // Returns at once if the bell has rung since look().
     bool const woken = ::syscall(SYS_futex, &page_->bell, FUTEX_WAIT, seen_, &time, nullptr, 0) == 0;
     if (!woken) return;
-    for (Time const end = Clock::now() + patience; Clock::now() < end;)
+    for (Time const end = Clock::now() + patience_after_knock; Clock::now() < end && !is_in_the_way();)
         if (page_->bell.load(std::memory_order_acquire) != seen_) return;
 }
 

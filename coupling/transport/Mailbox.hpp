@@ -18,7 +18,7 @@ namespace gimdem::coupling::transport
 
 inline constexpr std::size_t mailbox_bytes = 4096;
 /// The longest envelope that a mailbox holds; longer ones go through the socket [byte].
-inline constexpr std::size_t max_posted_bytes = mailbox_bytes - 24;
+inline constexpr std::size_t max_posted_bytes = mailbox_bytes - 28;
 
 /// What lies there; the layout is part of the protocol.
 struct MailboxPage;
@@ -42,6 +42,7 @@ public:
 
 private:
     void ring();
+    void wake_reader();
 
     std::shared_ptr<OwnSegment const> segment_;
     MailboxPage* page_;
@@ -76,6 +77,7 @@ public:
 
 private:
     std::uint32_t bell();
+    bool is_in_the_way() const;
 
     std::shared_ptr<Mapping const> segment_;
     MailboxPage const* page_;

@@ -28,6 +28,21 @@ Frames copy_of(Frames const& frames)
     return copy;
 }
 
+bool is_right_heartbeat(Frames const& frames)
+{
+    try
+    {
+        auto const message = coupling::message::decode(copy_of(frames));
+        if (message.kind() != coupling::message::Kind::kHeartbeat) return false;
+        coupling::message::unpack_heartbeat(message);
+        return true;
+    }
+    catch (CouplingError const&)
+    {
+        return false;
+    }
+}
+
 }  // namespace
 
 void report(char const* what)
@@ -56,16 +71,22 @@ void Wire::open(void const* channel, Role role, coupling::transport::ChannelHook
     open_ = true;
 }
 
+void Wire::put(Frames frames)
+{
+    bool const is_letter = !frames.empty() && !is_right_heartbeat(frames);
+    coming_.push_back({std::move(frames), is_letter});
+}
+
 void Wire::deliver()
 {
     while (open_ && !coming_.empty())
     {
-        Frames frames = std::move(coming_.front());
+        Post post = std::move(coming_.front());
         coming_.pop_front();
-        if (frames.empty() || (!contact_ && role_ == Role::server && !hooks_.may_open(frames.front()))) continue;
+        if (post.frames.empty() || !is_open_to(post)) continue;
         contact_ = true;
-        if (is_letter(frames)) ++delivered_;
-        hooks_.deliver(std::move(frames), Clock::now());
+        if (post.is_letter) ++delivered_;
+        hooks_.deliver(std::move(post.frames), Clock::now());
     }
 }
 
@@ -85,28 +106,15 @@ void Wire::end(coupling::transport::Ending ending)
         ending_ = std::move(ending);
 }
 
-/// Everything but a right heartbeat, which changes nothing, and what may not open a session.
-bool Wire::is_letter(Frames const& frames) const
+bool Wire::is_open_to(Post const& post) const
 {
-    if (frames.empty()) return false;
-    bool const opens = contact_ || role_ == Role::client || hooks_.may_open(frames.front());
-    try
-    {
-        auto const message = coupling::message::decode(copy_of(frames));
-        if (message.kind() != coupling::message::Kind::kHeartbeat) return opens;
-        coupling::message::unpack_heartbeat(message);
-        return false;
-    }
-    catch (CouplingError const&)
-    {
-        return opens;
-    }
+    return contact_ || role_ == Role::client || hooks_.may_open(post.frames.front());
 }
 
 std::size_t Wire::supply() const
 {
-    return delivered_ + static_cast<std::size_t>(std::count_if(coming_.begin(), coming_.end(),
-                                                               [this](auto const& f) { return is_letter(f); }));
+    auto const counts = [this](Post const& post) { return post.is_letter && is_open_to(post); };
+    return delivered_ + static_cast<std::size_t>(std::count_if(coming_.begin(), coming_.end(), counts));
 }
 
 bool Wire::has_sent(coupling::message::Kind kind) const

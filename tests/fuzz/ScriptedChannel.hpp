@@ -21,7 +21,7 @@ public:
     static Wire& of_session();
 
     /// The peer's next message: it arrives at deliver(), or as the answer to the next message of the session.
-    void put(coupling::transport::Frames frames) { coming_.push_back(std::move(frames)); }
+    void put(coupling::transport::Frames frames);
     void deliver();
     void deliver_to_stranger(coupling::transport::Frames frames);
     /// Nothing more will come, at once or, of a session that is not open yet, once it has spoken.
@@ -42,7 +42,14 @@ public:
     void close(void const* channel) { open_ = open_ && channel != channel_; }
 
 private:
-    bool is_letter(coupling::transport::Frames const& frames) const;
+    /// What will come, and whether it is a letter at all: everything but a right heartbeat, which changes nothing.
+    struct Post
+    {
+        coupling::transport::Frames frames;
+        bool is_letter;
+    };
+    /// Is there a session, or may it open one?
+    bool is_open_to(Post const& post) const;
 
     void const* channel_ = nullptr;
     coupling::transport::Role role_{};
@@ -51,7 +58,7 @@ private:
     bool contact_ = false;
     std::uint64_t session_ = 0;
     std::size_t delivered_ = 0;
-    std::deque<coupling::transport::Frames> coming_;
+    std::deque<Post> coming_;
     std::optional<coupling::transport::Ending> ending_;
     std::vector<coupling::message::Kind> sent_;
 };

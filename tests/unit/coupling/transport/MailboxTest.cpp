@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <string>
@@ -121,6 +122,28 @@ TEST_F(Mailbox, WakesItsReader)
     EXPECT_GE(Clock::now() - start, 30ms);
 }
 
+TEST_F(Mailbox, KnockWakesItsReaderAndIsNoMessage)
+{
+    std::atomic<bool> is_over = false;
+    std::thread writer(
+        [&]
+        {
+            while (!is_over)  // again and again: a knock before it sleeps is not heard
+            {
+                std::this_thread::sleep_for(5ms);
+                outbox.knock();
+            }
+        });
+    Time const start = Clock::now();
+    postbox.wait(start + 10s);
+    EXPECT_LT(Clock::now() - start, 5s) << "it did not sleep until the end";
+    EXPECT_EQ(look(), "(nothing)");
+    is_over = true;
+    writer.join();
+    outbox.announce(frame("after the knocks"));
+    EXPECT_EQ(look(), "after the knocks");
+}
+
 TEST_F(Mailbox, IsNotWaitedForLongerThanAsked)
 {
     Time const start = Clock::now();
@@ -134,7 +157,7 @@ TEST_F(Mailbox, RefusesAnEnvelopeThatIsTooLong)
     outbox.announce(frame("short"));
     std::uint32_t const long_one = max_posted_bytes + 1;
     std::memcpy(own->memory().data() + mailbox_bytes + 4, &long_one, sizeof(long_one));
-    EXPECT_FAULT(postbox.look(), Fault::protocol, "4073 bytes in a mailbox of 4072");
+    EXPECT_FAULT(postbox.look(), Fault::protocol, "4069 bytes in a mailbox of 4068");
 }
 
 TEST_F(Mailbox, BelievesNoClockButItsOwn)
