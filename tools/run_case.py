@@ -109,7 +109,7 @@ class Run:
         return {
             "case": str(self.case.file), "client": self.case.client, "grid": self.case.grid,
             "schedule": self.case.schedule, "until": self.case.until, "threads": self.threads,
-            "endpoint": self.endpoint.address, "restart": str(self.restart.checkpoint) if self.restart else None,
+            "endpoint": self.endpoint.for_client, "keys": self.case.keys, "restart": str(self.restart.checkpoint) if self.restart else None,
             "ranks": self.ranks, "grace_time": self.case.grace_time,
             "encodings": self.case.encodings or "of case.toml",
         }

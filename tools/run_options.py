@@ -9,7 +9,18 @@ from clients import CLIENTS
 ENCODINGS = ("sparse", "dense", "float32", "lz4")
 
 
+EXAMPLES = """examples:
+  ./gimdem run cases/wachem-bed --schedule overlapped      both solvers at work at once
+  ./gimdem run cases/wachem-bed --restart latest           go on from the last checkpoint
+  ./gimdem run cases/wachem-bed --grace-time 600           a client that is killed is started again
+  ./gimdem run cases/column-bed --client column-python     another fluid solver
+
+docs/user-guide.md explains each option. One that stands in case.toml too wins over it."""
+
+
 def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    parser.epilog = EXAMPLES
     parser.add_argument("case", metavar="CASE_DIR", help="a folder with a case.toml")
     parser.add_argument("--client", metavar="NAME", help="who solves the fluid (default: as case.toml says): "
                         f"{', '.join(CLIENTS)}, or the path of a program of yours (docs/write-a-client.md)")

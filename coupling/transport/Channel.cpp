@@ -180,7 +180,7 @@ void Channel::beat(Time now)
 void Channel::lose()
 {
     lost_ = true;
-    receive_some(last_messages);  // the last words of the peer, which may explain it
+    receive_some(last_messages);                    // the last words of the peer, which may explain it
     static_cast<void>(socket_.connection_broke());  // and a refusal, which may have come since we looked
     end({socket_.was_refused() ? Ending::Kind::refused : Ending::Kind::lost, 0, ""});
 }

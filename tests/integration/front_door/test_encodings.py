@@ -8,23 +8,26 @@ from column_case import ColumnCaseTest
 
 
 class Encodings(ColumnCaseTest):
-    def bytes_of(self, *options: str) -> tuple[float, str]:
-        """Bytes per step, and the last checkpoint."""
+    def run_with(self, *options: str) -> tuple[float, bytes, int]:
+        """Bytes per step, the last checkpoint, and the number of cells without particles at the end."""
         folder = self.run_client("column-c", "--until", "0.02", *options)
         last = sorted((folder / "checkpoints").iterdir())[-1]
-        return self.figures(folder)["bytes_per_step"], last.read_bytes().hex()
+        void_fractions = [float(line.split(",")[1]) for line in (folder / "profile.csv").read_text().splitlines()[1:]]
+        return self.figures(folder)["bytes_per_step"], last.read_bytes(), void_fractions.count(1.0)
 
     def test_bytes_per_step_tell_what_was_chosen(self) -> None:
         self.edit("case.toml", r"^timeout = ", 'encodings = ["dense"]\ntimeout = ')
-        dense, whole = self.bytes_of()
-        sparse, same = self.bytes_of("--encoding", "sparse")
-        rounded, other = self.bytes_of("--encoding", "dense,float32")
+        dense, whole, empty = self.run_with()
+        sparse, same, _ = self.run_with("--encoding", "sparse")
+        rounded, other, _ = self.run_with("--encoding", "dense,float32")
         print(f"figure: column_bytes_dense = {dense:.6g} [B]\nfigure: column_bytes_sparse = {sparse:.6g} [B]\n"
               f"figure: column_bytes_float32 = {rounded:.6g} [B]")
-        # 15 cells, of which the settled bed fills 6 or 7: of 19 fluid and 5 solid numbers per cell, all travel or those of these
-        # cells; the envelopes of the two messages are the same but for the runs of cells.
-        self.assertLess(sparse, dense)
-        self.assertLess(rounded, dense)
+        # 19 numbers of the fluid and 5 of the solid in each of 15 cells; twenty fluids and twenty-one solids. The
+        # envelopes differ by the names of the types and by runs of cells, some ten bytes a message.
+        self.assertLess(abs(dense - rounded - 4 * 15 * (19 + 5 * 21 / 20)), 20)
+        # Sparse leaves out the cells without particles; the fluid travels for those beside particles too, two at most.
+        self.assertGreater(dense - sparse, 8 * 24 * (empty - 2))
+        self.assertLess(dense - sparse, 8 * 24 * (empty + 1))
         self.assertEqual(same, whole, "sparse is the same to the bit")
         self.assertNotEqual(other, whole, "float32 rounds")
 

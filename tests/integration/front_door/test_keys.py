@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import shutil
+import signal
 import socket
+import sys
 import unittest
 from pathlib import Path
 
 from column_case import CLIENTS, ColumnCaseTest
+from front_door import ROOT
+
+sys.path.insert(0, str(ROOT / "tools"))
+from clients import find_client  # noqa: E402
 
 
 def free_port() -> int:
@@ -61,6 +67,17 @@ class Keys(ColumnCaseTest):
                 self.assert_one_error(err, f"{name} ended with code 1", "turned us away")
                 self.assertIn("unknown key", err, "the server tells who came")
 
+    def test_status_of_a_run_with_keys(self) -> None:
+        process = self.start("run", self.case, "--client", "column-c", "--until", "100", "--keys", self.keys)
+        folder = self.case / "runs" / "0001"
+        self.wait_until(lambda: len((folder / "coupling.csv").read_text().splitlines()) > 2
+                        if (folder / "coupling.csv").exists() else False, "steps")
+        code, out, err = self.gimdem("status", folder)
+        self.assertEqual(code, 0, err)
+        self.assertRegex(out, r"doing +coupled steps")
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(self.finish(process)[0], 130)
+
     def test_no_keys_in_the_folder(self) -> None:
         code, _, err = self.gimdem("run", self.case, "--keys", self.folder / "absent")
         self.assertEqual(code, 1, err)
@@ -68,13 +85,6 @@ class Keys(ColumnCaseTest):
 
     @staticmethod
     def command_of(name: str) -> str:
-        import sys
-
-        from front_door import ROOT
-
-        sys.path.insert(0, str(ROOT / "tools"))
-        from clients import find_client
-
         return " ".join(f'"{word}"' for word in find_client(name).command)
 
 
