@@ -180,6 +180,8 @@ def run_in_folder(case: CaseDescription, client: Program | None, options: argpar
         say("restart", shown(restart.checkpoint))
     if client:
         say("mesh", client.make_mesh(case, run.folder))
+    if run.ranks > 1 and case.grace_time > 0:
+        say("note", "a fluid on several ranks that dies is not started again (grace_time); go on with --restart latest")
     if run.ranks > 1:
         say("ranks", parallel.decompose(run.folder, run.ranks, restart))
     record = RunRecord(run.folder, run.settings())
