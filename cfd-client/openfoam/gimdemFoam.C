@@ -126,6 +126,7 @@ static void simulate
         }
 
         clockTime clock;
+        scalar compute = 0;
         bool writeDue = false;
         bool repeats = false;
         const volScalarField p0
@@ -179,10 +180,11 @@ static void simulate
             }
             #include "setFluid.H"
 
+            compute += clock.timeIncrement();
             repeats = particles.iterate();
+            clock.timeIncrement();  // that of the particles
         } while (repeats);
 
-        const scalar compute = clock.timeIncrement();
         if (writeDue)
         {
             // Only here do both solvers stand at the same time

@@ -32,6 +32,9 @@ class ShortRuns(RealCaseTest):
         self.assertEqual(figures["particles_lost"], 0)
         self.assertLess(figures["momentum_imbalance"], SMALL)
         self.assertLess(figures["volume_imbalance"], SMALL)
+        if schedule != "overlapped":  # one works at a time, and waiting is what is left
+            shares = sum(value for name, value in figures.items() if name.startswith("share_"))
+            self.assertAlmostEqual(shares, 1, places=9, msg="no time is told twice")
         for name, value in figures.items():
             self.assertIsNotNone(value, f"{name} is not finite")
             self.assertIn(f"figure: {name} = ", out)

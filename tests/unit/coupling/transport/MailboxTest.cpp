@@ -108,13 +108,13 @@ TEST_F(Mailbox, DropsWhatIsAbandoned)
 
 TEST_F(Mailbox, WakesItsReader)
 {
+    Time const start = Clock::now();
     std::thread writer(
         [&]
         {
             std::this_thread::sleep_for(30ms);
             outbox.announce(frame("now"));
         });
-    Time const start = Clock::now();
     while (look() != "now" && Clock::now() < start + 10s)
         postbox.wait(start + 10s);
     writer.join();
