@@ -37,7 +37,7 @@ class Comeback:
     def again(self, code: int, hung: bool) -> Union[tuple[subprocess.Popen[bytes], str], str]:
         """The client that goes on and one line about it; or why there is none."""
         if not (hung or died(code)):
-            return "it ended by itself"
+            return "this signal says that it should end, or that its numbers are wrong" if code < 0 else "it ended by itself"
         if not hung and self.error_in_log():
             return "its log tells an error, which would come again"
         state = newest_whole(self.folder)

@@ -18,6 +18,7 @@ CLEAR_LINE = "\x1b[K"
 OWN_LINE = re.compile(r"^gimdem-server: ")  # its errors and its news; an error is the last thing that it says
 CONNECTED = re.compile(r"^gimdem-server: .* connected$")
 LOST = re.compile(r"^gimdem-server: .* for a client that goes on$")
+BEHIND = re.compile(r"(?<=.)gimdem-server: ")  # on a terminal, behind the progress line, which has no end
 NEWS_AFTER = 0.5  # a line after which the server lives on for so long is no error [s]
 
 
@@ -64,7 +65,8 @@ class Relay:
     def interject(self, label: str, text: str) -> None:
         """A line of our own between those of the server."""
         self._release()
-        self._write("" if self._at_line_start else "\n")
+        if not self._at_line_start:
+            self._write("\n")
         say(label, text)
 
     def drain(self) -> list[str]:
@@ -100,6 +102,10 @@ class Relay:
 
     def _line(self, line: str) -> None:
         visible = line.rsplit("\r", 1)[-1].removeprefix(CLEAR_LINE).rstrip()
+        begin = BEHIND.search(visible) if self.on_terminal else None
+        if begin:
+            self._write(visible[:begin.start()] + "\n")
+            line = visible = visible[begin.start():]
         if OWN_LINE.match(visible):
             self._release()
         if CONNECTED.match(visible):
@@ -116,6 +122,8 @@ class Relay:
     def _release(self) -> None:
         """What was held back was no last word."""
         held, self._held = self._held, []
+        if held and not self._at_line_start:
+            self._write("\n")
         for line in held:
             self._write(line + "\n")
 

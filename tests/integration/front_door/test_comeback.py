@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import os
+import pty
 import signal
 import unittest
 
-from test_supervision import SupervisionTest
+from front_door import GIMDEM
+from test_supervision import SupervisionTest, read_all
 
 
 class Comeback(SupervisionTest):
@@ -52,8 +55,22 @@ class Comeback(SupervisionTest):
     def test_after_it_hung(self) -> None:
         self.comes_back("save,hang,once", "hung and was killed")
 
+    def test_told_in_lines_of_their_own_on_a_terminal(self) -> None:
+        self.misbehave(client="save,die,once")
+        pid, terminal = pty.fork()
+        if pid == 0:
+            os.chdir(self.folder)
+            os.execve(str(GIMDEM), [str(GIMDEM), "run", str(self.case)], self.environment)
+        seen = read_all(terminal)
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), 0, seen)
+        self.assertRegex(seen, r"\ngimdem-server: client fake disappeared; waiting 60 s for a client that goes on\r\n")
+        self.assertRegex(seen, r"\nclient: +gimdemFoam was killed by signal 9")
+
     def test_not_for_ever(self) -> None:
         self.stays_away("save,die", 3, "1 of 2", "2 of 2", "died 3 times behind step_10.h5")
+
+    def test_not_where_somebody_has_told_it_to_end(self) -> None:
+        self.stays_away("save,term", 1, "signal 15", "this signal says that it should end")
 
     def test_not_without_a_checkpoint(self) -> None:
         self.stays_away("die,once", 1, "no checkpoint yet")
