@@ -56,6 +56,10 @@ class Pair:
         """What is wrong with it; empty: nothing. The server checks its checkpoint itself."""
         if not self.checkpoint.is_file():
             return f"there is no {shown(self.checkpoint)}"
+        return self.damage()
+
+    def damage(self) -> str:
+        """The same of the fields alone."""
         files = FILE.findall(self.record)
         for name, size, sha1 in files:
             file = self.fluid / name

@@ -30,7 +30,6 @@ ClientInfo ServerSession::welcome(Newcomer const& newcomer, ServerTerms const& o
     message::Hello const& hello = newcomer.hello;
     session_.choose_session_number();
     terms_.encodings = both(options_.encodings, hello.encodings);
-    if (hello.rank.count > 1) terms_.encodings.sparse = false;  // needs are told by the cells of one process
     terms_.solid = message::choose_solid_fields(hello.wants, Fault::protocol);
     Schedule const schedule = choose_schedule(hello, offered);
 

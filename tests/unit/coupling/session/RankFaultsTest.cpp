@@ -153,6 +153,55 @@ TEST_F(RankFault, IsSeenWhileTheServerWaitsForAnotherRank)
     EXPECT_FAULT(client->step_of(0, 1), Fault::peer, "division by zero");
 }
 
+/// The server may wait for such a client to come back, but not for one that said why it ends.
+TEST_F(RankFault, IsALossIfTheRankSaysNothing)
+{
+    ServerOptions options = server_options(unused_ipc_endpoint());
+    options.step_time = 0.5;  // rank 1 lives, and is as good as lost then
+    start(2, options);
+    client->connect_first();
+
+    auto const words = client->on_all(
+        [&](std::size_t rank)
+        {
+            client->begin(rank);
+            if (rank == 0) client->step_of(0, 1);
+        });
+
+    EXPECT_THAT(served.get(), AllOf(StartsWith("timeout: "), HasSubstr("rank 1 of 2"), HasSubstr("has not sent")));
+    EXPECT_THAT(words[0], AllOf(HasSubstr("rank 1 of 2"), HasSubstr("has not sent")));
+    EXPECT_TRUE(server->has_lost_client());
+}
+
+TEST_F(RankFault, IsNoLossIfTheRankSaysWhy)
+{
+    start(2);
+    client->connect_first();
+    client->on_all([&](std::size_t rank) { client->begin(rank); });
+
+    client->clients[1].abort("out of memory");
+
+    EXPECT_THAT(served.get(), HasSubstr("out of memory"));
+    EXPECT_FALSE(server->has_lost_client());
+}
+
+TEST_F(RankFault, DifferentCheckpointsAreRefused)
+{
+    start(2);
+    client->connect_first([](ClientOptions& options) { options.resume = ResumePoint{7, 20, 0.5}; });
+
+    auto const words = client->on_all(
+        [&](std::size_t rank)
+        {
+            if (rank == 1) client->clients[1].connect({1.2, 1.8e-5});
+            client->clients[rank].send_mesh(view_of(client->pieces.parts[rank]));
+        });
+
+    EXPECT_THAT(served.get(), AllOf(StartsWith("protocol: "), HasSubstr("rank 1"),
+                                    HasSubstr("it goes on from step 20 of session 7 at 0.5 s, rank 0 begins a run")));
+    EXPECT_THAT(words, Each(HasSubstr("start all ranks from one checkpoint")));
+}
+
 TEST_F(RankFault, AGoodbyeOfOneRankOnlyIsOutOfOrder)
 {
     start(2);
