@@ -48,11 +48,6 @@ void refuse_reuse_on_devices(MappingSettings const& mapping)
         "one); leave it out, or run on the processor with --device cpu");
 }
 
-Constant3 constant(Vec3 const& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
-
 }  // namespace
 
 CoupledEngine::CoupledEngine(Case const& settings, exec::Execution execution, PolyMesh const& mesh,
@@ -149,7 +144,7 @@ StepReport CoupledEngine::advance(coupling::Step const& step, coupling::FluidFie
     load_fluid(fluid);
     system_.begin_coupling_step(&on_particles_);
     system_.let_walls_move(true);
-    report.pressure_force = constant(system_.steady_fluid_force());
+    report.pressure_force = constant3(system_.steady_fluid_force());
     for (std::int64_t k = 0; k < report.dem_steps; ++k)
         system_.step(step.dt / static_cast<double>(report.dem_steps));
     report.timings.compute = seconds_since(start);
@@ -315,8 +310,8 @@ void CoupledEngine::check_balance(double dt, StepReport& report) const
                    [=](std::int64_t c) { return Vec3(cell[c].w * Vec3(s[3 * c], s[3 * c + 1], s[3 * c + 2])); });
     double const mapped = exec::sum(execution_, mesh_.cell_count(), [=](std::int64_t c) { return solid_volume[c]; });
 
-    report.drag_force = constant(drag);
-    report.wall_force = constant(system_.wall_impulse() / dt);
+    report.drag_force = constant3(drag);
+    report.wall_force = constant3(system_.wall_impulse() / dt);
     report.momentum_imbalance = magnitude > 0 ? (given + drag).norm() / magnitude : 0;
     report.volume_imbalance = sums.volume > 0 ? std::abs(mapped - sums.volume) / sums.volume : 0;
 }
