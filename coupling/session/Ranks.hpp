@@ -26,7 +26,7 @@ std::string endpoint_of_rank(std::string const& endpoint, std::int32_t rank);
 
 /// Every rank has a session of its own, with its own socket, heartbeats and shared memory. Here their meshes are
 /// merged, their fields put one after the other, and their steps compared; what ends one of them ends all.
-class Ranks : public Exchange
+class Ranks final : public Exchange
 {
 public:
     using Parts = std::vector<std::unique_ptr<Exchange>>;

@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "Faults.hpp"
 #include "RankedPair.hpp"
+#include "RawMessages.hpp"
 
 namespace gimdem::test
 {
@@ -69,6 +71,34 @@ TEST_F(RankFault, DifferentStepsAreRefused)
     EXPECT_THAT(served.get(), AllOf(StartsWith("protocol: "), HasSubstr("rank 0 sent step 1 at 0 s"),
                                     HasSubstr("rank 1 step 1"), HasSubstr("same steps")));
     EXPECT_THAT(words, Each(AllOf(StartsWith("peer: "), HasSubstr("must take the same steps"))));
+}
+
+TEST(RankFaultOfAnOldServer, IsThatItKnowsNoRanks)
+{
+    RawPeer server = RawPeer::server(unused_ipc_endpoint());
+    auto greeted = in_background(
+        [&]
+        {
+            server.receive();
+            server.send(raw_welcome());  // as protocol 1.0 has it: without endpoints
+            return server.receive_error();
+        });
+    {
+        Client client(rank_options(server.endpoint(), 0, 2));
+        EXPECT_FAULT(client.connect({1.2, 1.8e-5}), Fault::version, "told endpoints for 0 more ranks instead of 1");
+    }
+    EXPECT_THAT(greeted.get(), HasSubstr("update it, or run one process"));
+}
+
+TEST_F(RankFault, DifferentFieldsAreRefused)
+{
+    start(2);
+    client->connect_first([](ClientOptions& options) { options.wants = {field::void_fraction}; });
+
+    auto const words = client->on_all([&](std::size_t rank) { client->begin(rank); });
+
+    EXPECT_THAT(served.get(), AllOf(StartsWith("protocol: "), HasSubstr("rank 1"), HasSubstr("differs from")));
+    EXPECT_THAT(words, Each(HasSubstr("differs from that of rank 0")));
 }
 
 TEST_F(RankFault, DifferentFluidsAreRefused)
