@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import subprocess
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from console import UserError, server_binary, shown
@@ -35,6 +35,8 @@ class CaseDescription:
     endpoint: str
     timeout: float  # a silent peer is dead after this [s]
     keys: str = ""  # folder, docs/security.md
+    grace_time: float = 0.0  # a client that was lost may come back within it [s]
+    encodings: list[str] = field(default_factory=list)  # of the fields; empty: as the case file says
     device: str = "auto"  # where the particles are computed
     precision: str | None = None  # of the contact laws, None: as the case file says
 
@@ -72,7 +74,7 @@ def describe(case_file: Path) -> CaseDescription:
     return CaseDescription(
         file=case_file, title=told["title"], client=told["client"], grid=told.get("grid", ""),
         grids=told.get("grids", []), schedule=told["schedule"], until=told["until"], endpoint=told["endpoint"],
-        timeout=told["timeout"], keys=told.get("keys", ""),
+        timeout=told["timeout"], keys=told.get("keys", ""), grace_time=told.get("grace_time", 0.0),
     )
 
 

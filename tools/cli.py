@@ -19,6 +19,7 @@ import bench_overlap
 import fuzz
 import meshes
 import run_case
+import run_options
 import status
 from build import build
 from console import ROOT, UserError, build_dir, say, shown
@@ -38,7 +39,7 @@ def parser() -> argparse.ArgumentParser:
         command.set_defaults(function=function)
         return command
 
-    run_case.add_options(add("run", run_case.run, "install what is missing, build, run a case, plot and sum up"))
+    run_options.add_options(add("run", run_case.run, "install what is missing, build, run a case, plot and sum up"))
     meshes.add_options(add("mesh", meshes.run, "make the mesh of a case without running it"))
     status.add_options(add("status", status.run, "how a run stands: speed, balance, time left"))
     add("test", run_tests, f"build everything and run the tests, except {SKIPPED_LABELS}; further options go to ctest")

@@ -7,12 +7,12 @@ import shutil
 import socket
 import tempfile
 from pathlib import Path
-from typing import Union
 
 from console import UserError
 
 SOCKET_PATH_LIMIT = 107  # characters of sockaddr_un, without the closing zero
-Address = Union[str, tuple[str, int]]
+LISTENING = "0A"  # TCP_LISTEN of <netinet/tcp.h>, as /proc/net/tcp has it
+ALL = {"*": "127.0.0.1", "0.0.0.0": "127.0.0.1", "[::]": "[::1]"}  # addresses of this machine, and one where it answers
 
 
 class Endpoint:
@@ -38,31 +38,51 @@ class Endpoint:
             raise UserError(f"the endpoint {self.address} is in use (another run or program listens there); wait for "
                             "it to end, or change [coupling] endpoint in case.toml")
 
+    @property
+    def for_client(self) -> str:
+        """Where a client on this machine finds the server."""
+        if self._is_file():
+            return self.address
+        host, port = self._host_and_port()
+        return f"tcp://{ALL.get(host, host)}:{port}"
+
     def answers(self) -> bool:
         """Whether somebody listens."""
-        family, address = self._socket_address()
-        with socket.socket(family) as probe:
-            probe.settimeout(1)
-            try:
-                return probe.connect_ex(address) in (0, errno.EAGAIN)
-            except OSError:
-                return False
-
-    def _socket_address(self) -> tuple[int, Address]:
-        if self.address.startswith("ipc://"):
-            return socket.AF_UNIX, self.address[len("ipc://") :]
-        host, _, port = self.address[len("tcp://") :].rpartition(":")
         try:
-            return socket.AF_INET, (host, int(port))
+            if self._is_file():
+                with socket.socket(socket.AF_UNIX) as probe:
+                    probe.settimeout(1)
+                    return probe.connect_ex(self._path()) in (0, errno.EAGAIN)
+            host, port = self._host_and_port()
+            with socket.create_connection((ALL.get(host, host).strip("[]"), port), timeout=1):
+                return True
+        except OSError:
+            return False
+
+    def bound(self) -> bool:
+        """Whether the server has bound it. A look at what the system tells: a connection would be a peer to the server."""
+        if self._is_file():
+            return Path(self._path()).exists()
+        port = f":{self._host_and_port()[1]:04X}"
+        for table in ("/proc/net/tcp", "/proc/net/tcp6"):
+            rows = [line.split() for line in Path(table).read_text().splitlines()[1:]] if Path(table).exists() else []
+            if any(row[1].endswith(port) and row[3] == LISTENING for row in rows):
+                return True
+        return False
+
+    def _is_file(self) -> bool:
+        return self.address.startswith("ipc://")
+
+    def _path(self) -> str:
+        return self.address.removeprefix("ipc://")
+
+    def _host_and_port(self) -> tuple[str, int]:
+        host, _, port = self.address.removeprefix("tcp://").rpartition(":")
+        try:
+            return host, int(port)
         except ValueError:
             raise UserError(f"'{self.address}' is not an endpoint (neither ipc nor tcp://HOST:PORT); "
                             "see [coupling] endpoint in docs/user-guide.md", 2) from None
-
-    def bound(self) -> bool:
-        """Whether the server has bound it. A look at the socket file: a connection would be a peer to the server."""
-        if self.address.startswith("ipc://"):
-            return Path(self.address[len("ipc://") :]).exists()
-        return self.answers()
 
     def close(self) -> None:
         if self._folder:

@@ -80,8 +80,9 @@ class RunRecord:
         }
         self._write()
 
-    def finish(self, outcome: str, wall_time: float) -> None:
-        self._content.update({"end": now(), "outcome": outcome, "wall_time_s": round(wall_time, 3)})
+    def finish(self, outcome: str, wall_time: float, client_starts: int) -> None:
+        self._content.update({"end": now(), "outcome": outcome, "wall_time_s": round(wall_time, 3),
+                              "client_starts": client_starts})
         self._write()
 
     def _write(self) -> None:

@@ -12,9 +12,13 @@ import termios
 import time
 import tty
 
+from console import say
+
 CLEAR_LINE = "\x1b[K"
 OWN_LINE = re.compile(r"^gimdem-server: ")  # its errors and its news; an error is the last thing that it says
 CONNECTED = re.compile(r"^gimdem-server: .* connected$")
+LOST = re.compile(r"^gimdem-server: .* for a client that goes on$")
+BEHIND = re.compile(r"(?<=.)gimdem-server: ")  # on a terminal, behind the progress line, which has no end
 NEWS_AFTER = 0.5  # a line after which the server lives on for so long is no error [s]
 
 
@@ -26,6 +30,7 @@ class Relay:
         self.reader, self.child_end = self._open_terminal() if self.on_terminal else os.pipe()
         os.set_blocking(self.reader, False)
         self.client_connected = False
+        self.losses = 0  # of clients that the server waits for
         self._held: list[str] = []  # the server's own words, until it is clear that it lives on
         self._held_since = 0.0
         self._pending = ""  # of a line that is not complete
@@ -56,6 +61,13 @@ class Relay:
             time.sleep(patience)  # the other end is closed: nothing more to wait for
         if self._held and alive and time.monotonic() - self._held_since > NEWS_AFTER:
             self._release()
+
+    def interject(self, label: str, text: str) -> None:
+        """A line of our own between those of the server."""
+        self._release()
+        if not self._at_line_start:
+            self._write("\n")
+        say(label, text)
 
     def drain(self) -> list[str]:
         """Pass on what is left after the server has ended; returns its last words, which are not passed on."""
@@ -90,10 +102,16 @@ class Relay:
 
     def _line(self, line: str) -> None:
         visible = line.rsplit("\r", 1)[-1].removeprefix(CLEAR_LINE).rstrip()
+        begin = BEHIND.search(visible) if self.on_terminal else None
+        if begin:
+            self._write(visible[:begin.start()] + "\n")
+            line = visible = visible[begin.start():]
         if OWN_LINE.match(visible):
             self._release()
         if CONNECTED.match(visible):
             self.client_connected = True
+        if LOST.match(visible):
+            self.losses += 1
         if OWN_LINE.match(visible) or (self._held and visible.startswith("  ")):
             self._held.append(visible)
             self._held_since = time.monotonic()
@@ -104,6 +122,8 @@ class Relay:
     def _release(self) -> None:
         """What was held back was no last word."""
         held, self._held = self._held, []
+        if held and not self._at_line_start:
+            self._write("\n")
         for line in held:
             self._write(line + "\n")
 

@@ -14,56 +14,17 @@ from typing import Any
 import parallel
 from build import build, is_built_with_cuda
 from case_folder import CaseDescription, check_grid, describe, find_case_file
-from clients import CLIENTS, Program, find_client
+from clients import Program, find_client
+from comeback import Comeback
 from console import UserError, say, server_binary, shown
 from endpoint import Endpoint
 from process import how_it_ended, spawn
 from record import RunRecord
 from report import print_results
-from restart import Restart, find_restart
+from restart import Restart, State, find_restart
 from run_folder import copy_case, make_run_folder
 from packages import setup
 from supervise import Child, Outcome, Supervisor
-
-def add_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("case", metavar="CASE_DIR", help="a folder with a case.toml")
-    parser.add_argument("--client", metavar="NAME", help="who solves the fluid (default: as case.toml says): "
-                        f"{', '.join(CLIENTS)}, or the path of a program of yours (docs/write-a-client.md)")
-    parser.add_argument("--schedule", choices=("serial", "overlapped", "iterated"),
-                        help="who waits for whom (case.toml)")
-    parser.add_argument("--device", choices=("auto", "cuda", "cpu"), default="auto",
-                        help="where the particles are computed")
-    parser.add_argument("--precision", choices=("double", "mixed"), help="of the contact laws (case.toml)")
-    parser.add_argument("--grid", metavar="X", help="mesh variant of the case (case.toml)")
-    parser.add_argument("--until", metavar="T", type=positive, help="simulated time [s] (case.toml)")
-    parser.add_argument("--threads", metavar="N", type=count, help="threads of the server; 0: all cores (case.toml)")
-    parser.add_argument("--ranks", metavar="N", type=count, default=1,
-                        help="processes that solve the fluid, with MPI (1)")
-    parser.add_argument("--restart", metavar="FILE",
-                        help="go on from a checkpoint, or from the latest of the case: --restart latest")
-    parser.add_argument("--trace", action="store_true", help="write trace.json, which Perfetto opens")
-    parser.add_argument("--trace-steps", metavar="N", type=count, default=1000, help="coupling steps in it (1000)")
-    parser.add_argument("--trace-every", metavar="K", type=positive_count, default=1, help="of every K-th step (1)")
-    parser.add_argument("--output", metavar="DIR", help="run folder; must be new or empty (CASE_DIR/runs/NNNN)")
-
-
-def positive(text: str) -> float:
-    value = float(text)
-    if not 0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} is not a positive number")
-    return value
-
-
-def count(text: str) -> int:
-    if int(text) < 0:
-        raise argparse.ArgumentTypeError(f"{text} is negative")
-    return int(text)
-
-
-def positive_count(text: str) -> int:
-    if int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text} is not 1 or more")
-    return int(text)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -113,6 +74,9 @@ def choose(case: CaseDescription, options: argparse.Namespace) -> CaseDescriptio
     case.client = options.client or case.client
     case.schedule = options.schedule or case.schedule
     case.until = options.until or case.until
+    case.grace_time = case.grace_time if options.grace_time is None else options.grace_time
+    case.encodings = options.encoding or []
+    case.keys = str(Path(options.keys).resolve()) if options.keys else case.keys
     case.device = options.device
     case.precision = options.precision
     refuse_what_is_to_come(case.client, "auto")
@@ -145,8 +109,9 @@ class Run:
         return {
             "case": str(self.case.file), "client": self.case.client, "grid": self.case.grid,
             "schedule": self.case.schedule, "until": self.case.until, "threads": self.threads,
-            "endpoint": self.endpoint.address, "restart": str(self.restart.checkpoint) if self.restart else None,
-            "ranks": self.ranks,
+            "endpoint": self.endpoint.for_client, "keys": self.case.keys, "restart": str(self.restart.checkpoint) if self.restart else None,
+            "ranks": self.ranks, "grace_time": self.case.grace_time,
+            "encodings": self.case.encodings or "of case.toml",
         }
 
     def start_server(self, stderr: int) -> subprocess.Popen[bytes]:
@@ -161,15 +126,19 @@ class Run:
             command += ["--threads", str(self.threads)]
         if self.restart:
             command += ["--restart", str(self.restart.checkpoint)]
-        command += self.trace
+        if self.case.keys:
+            command += ["--keys", self.case.keys]
+        for name in self.case.encodings:
+            command += ["--encoding", name]
+        command += ["--grace-time", repr(self.case.grace_time), *self.trace]
         with self.server_log.open("ab") as log:
             return spawn(command, stdout=log, stderr=stderr)
 
-    def start_client(self, scratch: parallel.Scratch) -> subprocess.Popen[bytes]:
+    def start_client(self, scratch: parallel.Scratch, state: State | None) -> subprocess.Popen[bytes]:
+        """That goes on from a state, or begins."""
         assert self.client is not None
-        alone = self.client.start_command(self.folder, self.endpoint.address, self.case.keys)
-        if self.restart and self.restart.fluid:
-            alone += ["-restart", self.restart.fluid.name]
+        alone = self.client.start_command(self.folder, self.endpoint.for_client, self.case.keys)
+        alone += state.options() if state else []
         command = parallel.command(alone, self.ranks)
         environment = {**self.client.environment(), "GIMDEM_CLIENT_LOG": str(self.folder / "log.client.jsonl")}
         with self.client_log.open("ab") as log:
@@ -180,11 +149,21 @@ class Run:
         """Both processes, to their end."""
         scratch = parallel.Scratch(self.ranks)
         try:
-            start_client = (lambda: self.start_client(scratch)) if self.client else None
-            name = self.client.name if self.client else ""
-            return Supervisor(self.case.timeout, name).run(self.start_server, self.endpoint.bound, start_client)
+            if self.client is None:
+                return Supervisor(self.case.timeout, "").run(self.start_server, self.endpoint.bound, None)
+            supervisor = Supervisor(self.case.timeout, self.client.name, self.comeback(scratch))
+            first = self.restart.state if self.restart else None
+            return supervisor.run(self.start_server, self.endpoint.bound, lambda: self.start_client(scratch, first))
         finally:
             scratch.remove()
+
+
+    def comeback(self, scratch: parallel.Scratch) -> Comeback | None:
+        """How the client is started again if it dies; the server waits for one process only."""
+        if self.case.grace_time == 0 or self.ranks > 1:
+            return None
+        return Comeback(self.folder, self.case.grace_time, lambda state: self.start_client(scratch, state),
+                        lambda: self.client.error_in(self.client_log))
 
 
 def run_in_folder(case: CaseDescription, client: Program | None, options: argparse.Namespace, endpoint: Endpoint) -> int:
@@ -201,13 +180,15 @@ def run_in_folder(case: CaseDescription, client: Program | None, options: argpar
         say("restart", shown(restart.checkpoint))
     if client:
         say("mesh", client.make_mesh(case, run.folder))
+    if run.ranks > 1 and case.grace_time > 0:
+        say("note", "a fluid on several ranks that dies is not started again (grace_time); go on with --restart latest")
     if run.ranks > 1:
         say("ranks", parallel.decompose(run.folder, run.ranks, restart))
     record = RunRecord(run.folder, run.settings())
     start = time.monotonic()
     outcome = run.carry_out()
     wall_time = time.monotonic() - start
-    record.finish(in_words(outcome), wall_time)
+    record.finish(in_words(outcome), wall_time, outcome.starts)
     if run.ranks > 1 and not outcome.killed:
         say("ranks", parallel.reconstruct(run.folder))
     if outcome.killed or not (outcome.good() or outcome.signal):
@@ -258,6 +239,8 @@ def failure(outcome: Outcome, run: Run) -> str:
 
 def reason_without_words(child: Child, is_first: bool) -> str:
     """For a process that left no message; how the first one ended has been said."""
+    if child.dismissed:
+        return "was told to end, as its client would not come back; its last checkpoint is kept"
     if child.forced:
         return "did not notice that its peer was gone, and was ended"
     return "" if child.code == 0 or is_first else f"{how_it_ended(child.name, child.code)} without a message"

@@ -18,7 +18,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("target", metavar="ENDPOINT|RUN_DIR", nargs="?",
                         help="a server's endpoint or a run folder (the newest run of a case below this folder)")
     parser.add_argument("--json", action="store_true", help="one JSON object, for programs")
-    parser.add_argument("--keys", metavar="DIR", help="folder of keys, for a server that has some")
+    parser.add_argument("--keys", metavar="DIR", help="folder of keys, for a server that has some (those of the run)")
     parser.add_argument("--patience", metavar="S", type=float, default=5.0, help="wait for the answer so long [s] (5)")
 
 
@@ -33,11 +33,16 @@ class Record:
     def endpoint(self) -> str:
         return str(self.content.get("settings", {}).get("endpoint", ""))
 
+    @property
+    def keys(self) -> str:
+        return str(self.content.get("settings", {}).get("keys") or "")
+
 
 def run(options: argparse.Namespace) -> int:
     if options.target and "://" in options.target:
         return ask_to_terminal(options.target, options)
     record = read_record(Path(options.target)) if options.target else newest_record()
+    options.keys = options.keys or record.keys
     if is_server_of(record, options):
         return ask_to_terminal(record.endpoint, options)
     print(json.dumps(as_object(record)) if options.json else as_text(record))

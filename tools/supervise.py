@@ -10,7 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import FrameType
 
-from process import kill_session
+from comeback import Comeback, died
+from process import how_it_ended, kill_session
 from relay import Relay
 
 POLL = 0.1  # [s]
@@ -25,6 +26,7 @@ class Child:
     process: subprocess.Popen[bytes]
     ended_at: float | None = None
     forced: bool = False
+    dismissed: bool = False  # told to end, as nobody would come back
 
     def alive(self) -> bool:
         if self.process.poll() is None:
@@ -56,6 +58,7 @@ class Outcome:
     signal: int = 0  # that asked us to stop, 0: none
     killed: bool = False  # at the second signal
     alone: bool = False  # no client was wanted
+    starts: int = 0  # of the client
     last_words: list[str] = field(default_factory=list)  # of the server
 
     def children(self) -> list[Child]:
@@ -96,8 +99,11 @@ class StopRequest:
 class Supervisor:
     """Start the server, then the client; see both to their end."""
 
-    def __init__(self, timeout: float, client_name: str) -> None:
+    def __init__(self, timeout: float, client_name: str, comeback: Comeback | None = None) -> None:
         self.client_name = client_name
+        self._comeback = comeback
+        self._losses = 0  # that we have dealt with
+        self._lost_at = 0.0
         self.patience = timeout + 5  # for a process to notice that its peer, once connected, is gone [s]
 
     def run(
@@ -114,7 +120,7 @@ class Supervisor:
             while start_client and outcome.server.alive() and not server_ready() and not stop.count:
                 relay.pump(POLL, alive=True)
             if start_client and outcome.server.alive() and not stop.count:
-                outcome.client = Child(self.client_name, start_client())
+                outcome.client, outcome.starts = Child(self.client_name, start_client()), 1
             self._watch(outcome, relay, stop)
             outcome.last_words = relay.drain()
             return outcome
@@ -134,10 +140,38 @@ class Supervisor:
             if stop.count > handled:
                 handled = stop.count
                 self._obey(outcome, stop)
+            if self._comeback and not stop.count and self._takes_back(outcome, relay):
+                continue
             if len(alive) < len(outcome.children()):
                 ended = next(child for child in outcome.children() if child not in alive)
                 patience = self.patience if relay.client_connected else LAST_WORDS
+                if self._comeback and relay.client_connected and ended is outcome.client and died(ended.code):
+                    patience += self._comeback.grace_time  # the server is in a long step, and will wait for a client
                 self._hurry(alive[0], time.monotonic() - (ended.ended_at or 0.0), patience)
+
+    def _takes_back(self, outcome: Outcome, relay: Relay) -> bool:
+        """Has a client that the server has lost come back; False: there is nothing to do."""
+        client, server = outcome.client, outcome.server
+        if relay.losses == self._losses or client is None or server.dismissed or not server.alive():
+            return False
+        self._lost_at = self._lost_at or time.monotonic()
+        if client.alive():  # it hangs, or is about to go
+            if time.monotonic() - self._lost_at > LAST_WORDS:
+                client.forced = True
+                client.tell(signal.SIGKILL)
+            return True
+        self._losses, self._lost_at = relay.losses, 0.0
+        ended = "hung and was killed" if client.forced else how_it_ended(client.name, client.code).split(" ", 1)[1]
+        answer = self._comeback.again(client.code, client.forced)
+        if isinstance(answer, str):
+            relay.interject("client", f"{client.name} {ended}; not started again: {answer}")
+            server.dismissed = True
+            server.tell(signal.SIGTERM)
+            return True
+        process, how = answer
+        relay.interject("client", f"{client.name} {ended}; {how}")
+        outcome.client, outcome.starts = Child(client.name, process), outcome.starts + 1
+        return True
 
     @staticmethod
     def _obey(outcome: Outcome, stop: StopRequest) -> None:

@@ -2,14 +2,18 @@
 /*
  * The solver of column.cpp in C99, coupled with client.h.
  *
- * Usage: column-c <endpoint> <run folder> [folder of keys], which has constant/column; writes column.csv (a line a step) and
- * profile.csv (a line a cell, at the end) there.
+ * Usage: column-c <endpoint> <run folder> [folder of keys] [--restart <state>]; the run folder has constant/column.
+ * Writes column.csv (a line a step), profile.csv (a line a cell, at the end) and states/, from which it goes on, there.
  */
+#define _POSIX_C_SOURCE 200809L /* fsync, mkdir */
+#include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "gimdem/coupling/client.h"
 
@@ -19,7 +23,7 @@
 /* constant/column */
 struct settings
 {
-    double width, depth, height, cells, density, viscosity, inflow, ramp_time, time_step, timeout;
+    double width, depth, height, cells, density, viscosity, inflow, ramp_time, time_step, timeout, save_interval;
 };
 
 /* The gas. A vector field has three numbers a cell, of which only the last, along z, is not 0 here. */
@@ -64,7 +68,8 @@ static int read_settings(const char* folder, struct settings* settings)
                  {"height", &settings->height},       {"cells", &settings->cells},
                  {"density", &settings->density},     {"viscosity", &settings->viscosity},
                  {"inflow", &settings->inflow},       {"ramp_time", &settings->ramp_time},
-                 {"time_step", &settings->time_step}, {"timeout", &settings->timeout}};
+                 {"time_step", &settings->time_step}, {"timeout", &settings->timeout},
+                 {"save_interval", &settings->save_interval}};
     char line[1000], name[100];
     double value;
     size_t found = 0, i;
@@ -224,13 +229,87 @@ static void advance(const gimdem_solid_fields* solid, double inflow, double dt)
     differentiate();
 }
 
+/* Where the gas goes on: a text that names the particles' checkpoint, then the resume point, then the column. The file
+ * is there once it is whole and on disk. */
+static int write_state(const char* folder, const gimdem_saved_checkpoint* saved, double time, long steps)
+{
+    char name[1000], part[1010];
+    FILE* file;
+    int k, good;
+    snprintf(name, sizeof name, "%s/states", folder);
+    mkdir(name, 0777); /* or it is there */
+    snprintf(name, sizeof name, "%s/states/%09ld.state", folder, steps);
+    snprintf(part, sizeof part, "%s.part", name);
+    file = fopen(part, "w");
+    if (file != NULL)
+    {
+        fprintf(file, "checkpoint %s\nsession %" PRIu64 "\nstep %" PRId64 "\ntime %.17g\nsteps %ld\napplied_force %.17g\n",
+                saved->name, saved->session, saved->step, time, steps, column.applied_force);
+        for (k = 0; k < column.n; ++k)
+            fprintf(file, "%.17g %.17g %.17g\n", column.void_fraction[k], column.velocity[3 * k + 2],
+                    column.pressure_gradient[3 * k + 2]);
+        fprintf(file, "end\n");
+        good = fflush(file) == 0 && !ferror(file) && fsync(fileno(file)) == 0;
+        if (fclose(file) == 0 && good && rename(part, name) == 0) return 1;
+    }
+    fprintf(stderr, "column-c: %s cannot be written\n", name);
+    return 0;
+}
+
+/* The resume point and the number of steps of the gas since the run began; the column goes on from there. */
+static int read_state(const char* name, gimdem_resume_point* point, long* steps)
+{
+    FILE* file = fopen(name, "r");
+    char end[4] = "";
+    int k, good = 0;
+    point->struct_size = sizeof *point;
+    if (file != NULL)
+    {
+        good = fscanf(file, "checkpoint %*s session %" SCNu64 " step %" SCNd64 " time %lf steps %ld applied_force %lf",
+                      &point->session, &point->step, &point->time, steps, &column.applied_force) == 5;
+        for (k = 0; k < column.n && good; ++k)
+            good = fscanf(file, "%lf %lf %lf", &column.void_fraction[k], &column.velocity[3 * k + 2],
+                          &column.pressure_gradient[3 * k + 2]) == 3;
+        good = good && fscanf(file, "%3s", end) == 1 && strcmp(end, "end") == 0;
+        fclose(file);
+    }
+    if (!good) fprintf(stderr, "column-c: %s cannot be read, or is of another column\n", name);
+    integrate_pressure();
+    differentiate();
+    return good;
+}
+
+/* column.csv; of a run that goes on in its folder, without the lines behind that time. */
+static FILE* open_steps(const char* folder, double time)
+{
+    char name[1000], part[1000], line[1000];
+    double t, last = -1;
+    FILE* before;
+    FILE* file = open_table(folder, "column.csv.part");
+    snprintf(name, sizeof name, "%s/column.csv", folder);
+    snprintf(part, sizeof part, "%s/column.csv.part", folder);
+    if (file == NULL) return NULL;
+    fprintf(file, "time,inflow,outflow,pressure_drop,applied_force\n");
+    before = fopen(name, "r");
+    while (before != NULL && fgets(line, sizeof line, before) != NULL)
+        if (sscanf(line, "%lf", &t) == 1 && t > last && t <= time)
+        {
+            fputs(line, file);
+            last = t;
+        }
+    if (before != NULL) fclose(before);
+    if (rename(part, name) == 0) return file;
+    fclose(file);
+    return NULL;
+}
+
 static double inflow_at(double t, const struct settings* settings)
 {
     return settings->inflow * fmin(1, t / settings->ramp_time);
 }
 
-/* One coupling step; stops if the server asks for it. */
-static gimdem_status do_step(gimdem_client* client, long i, const struct settings* settings, FILE* table)
+/* One coupling step, of that number in the session; stops if the server asks for it. */
+static gimdem_status do_step(gimdem_client* client, long number, long i, const struct settings* settings, FILE* table)
 {
     const gimdem_monitor monitors[] = {{"applied_force_x", "N", 0},
                                        {"applied_force_y", "N", 0},
@@ -241,7 +320,7 @@ static gimdem_status do_step(gimdem_client* client, long i, const struct setting
     gimdem_fluid_fields fluid = {0};
     gimdem_solid_fields solid = {0};
     gimdem_status status;
-    step.number = i;
+    step.number = number;
     step.time = dt * (double)(i - 1);
     step.dt = dt;
     fluid.struct_size = sizeof fluid;
@@ -260,24 +339,45 @@ static gimdem_status do_step(gimdem_client* client, long i, const struct setting
     return gimdem_client_end_step(client, NULL);
 }
 
-/* All steps, and the end in order. */
-static gimdem_status do_steps(gimdem_client* client, double end_time, const struct settings* settings, FILE* table)
+/* Both states of now; *complete is the newest checkpoint of which we have a state. */
+static gimdem_status save(gimdem_client* client, const char* folder, double time, long steps, int64_t* complete)
 {
-    const long steps = lround(end_time / settings->time_step);
+    gimdem_saved_checkpoint saved = {sizeof saved, 0, 0, 0, NULL};
+    const gimdem_status status = gimdem_client_save_checkpoint(client, time, *complete, &saved);
+    if (status != GIMDEM_OK) return status;
+    *complete = saved.step;
+    if (write_state(folder, &saved, time, steps)) return GIMDEM_OK;
+    gimdem_client_abort(client, "the state of the gas cannot be written");
+    return GIMDEM_ERROR_INTERNAL;
+}
+
+/* All steps behind `begin`, and the end in order. */
+static gimdem_status do_steps(gimdem_client* client, const gimdem_welcome* welcome, const struct settings* settings,
+                              const char* folder, const gimdem_resume_point* point, long begin, FILE* table)
+{
+    const long steps = lround(welcome->end_time / settings->time_step);
+    const long interval = lround(settings->save_interval / settings->time_step);
+    const long steps_per_state = interval > 1 ? interval : 1;
     const char* asked_to_stop = NULL;
     gimdem_status status = GIMDEM_OK;
+    int64_t complete = point->step;
     long i;
-    for (i = 1; i <= steps && asked_to_stop == NULL && status == GIMDEM_OK; ++i)
+    for (i = begin + 1; i <= steps && asked_to_stop == NULL && status == GIMDEM_OK; ++i)
     {
-        status = do_step(client, i, settings, table);
+        status = do_step(client, i - begin, i, settings, table);
         if (status == GIMDEM_OK) status = gimdem_client_stop_request(client, &asked_to_stop);
+        if (status != GIMDEM_OK || !welcome->saves_checkpoints) continue;
+        if (i % steps_per_state != 0 && i != steps && asked_to_stop == NULL) continue;
+        fflush(table);
+        status = save(client, folder, settings->time_step * (double)i, i, &complete);
     }
     if (status != GIMDEM_OK) return status;
     return gimdem_client_finish(client, asked_to_stop != NULL ? "stopped as asked" : "end time reached");
 }
 
-/* The whole session; the first call that fails ends it. */
-static gimdem_status run(gimdem_client* client, const struct settings* settings, FILE* table)
+/* The whole session, from step `begin` on; the first call that fails ends it. */
+static gimdem_status run(gimdem_client* client, const struct settings* settings, const char* folder,
+                         const gimdem_resume_point* point, long begin, FILE* table)
 {
     gimdem_fluid_properties fluid = {sizeof fluid, 0, 0};
     gimdem_welcome welcome = {0};
@@ -291,14 +391,15 @@ static gimdem_status run(gimdem_client* client, const struct settings* settings,
     if ((status = gimdem_client_connect(client, &fluid, &welcome)) != GIMDEM_OK) return status;
     if ((status = send_mesh(client, (int32_t)column.n)) != GIMDEM_OK) return status;
     if ((status = gimdem_client_solid(client, &solid)) != GIMDEM_OK) return status;
-    for (k = 0; k < column.n; ++k)
+    for (k = 0; k < column.n && begin == 0; ++k)
         column.void_fraction[k] = solid.void_fraction[k];
-    advance(&solid, inflow_at(0, settings), settings->time_step);
-    fprintf(table, "time,inflow,outflow,pressure_drop,applied_force\n");
-    return do_steps(client, welcome.end_time, settings, table);
+    if (begin == 0) advance(&solid, inflow_at(0, settings), settings->time_step);
+    return do_steps(client, &welcome, settings, folder, point, begin, table);
 }
 
-static gimdem_status create(const char* endpoint, double timeout, char const* keys, gimdem_client** client)
+/* resume: NULL where a run begins. */
+static gimdem_status create(const char* endpoint, double timeout, char const* keys, gimdem_resume_point const* resume,
+                            gimdem_client** client)
 {
     gimdem_client_options options;
     const gimdem_status status = gimdem_client_options_init(&options, sizeof options);
@@ -308,32 +409,43 @@ static gimdem_status create(const char* endpoint, double timeout, char const* ke
     options.name = "column-c";
     options.timeout = timeout;
     options.keys = keys;
+    options.resume = resume;
     return gimdem_client_create(&options, client);
 }
 
 int main(int argc, char** argv)
 {
-    struct settings settings = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    struct settings settings = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    gimdem_resume_point point = {sizeof point, 0, 0, 0};
+    const char* restart = NULL;
+    long begin = 0;
     gimdem_client* client;
     gimdem_status status;
     FILE* table;
+    if (argc > 4 && strcmp(argv[argc - 2], "--restart") == 0)
+    {
+        restart = argv[argc - 1];
+        argc -= 2;
+    }
     if (argc != 3 && argc != 4)
     {
-        fprintf(stderr, "usage: column-c <endpoint> <run folder> [folder of keys]\n");
+        fprintf(stderr, "usage: column-c <endpoint> <run folder> [folder of keys] [--restart <state>]\n");
         return 2;
     }
     if (!read_settings(argv[2], &settings)) return 1;
-    table = open_table(argv[2], "column.csv");
-    if (table == NULL) return 1;
     column.n = (int)settings.cells;
     column.h = settings.height / column.n;
     column.area = settings.width * settings.depth;
     column.density = settings.density;
     make_mesh((int32_t)column.n, &settings);
+    if (restart != NULL && !read_state(restart, &point, &begin)) return 1;
+    table = open_steps(argv[2], point.time);
+    if (table == NULL) return 1;
 
-    status = create(argv[1], settings.timeout, argc == 4 ? argv[3] : NULL, &client);
-    if (status == GIMDEM_OK) status = run(client, &settings, table);
-    if (status != GIMDEM_OK) fprintf(stderr, "column-c: %s\n", gimdem_client_last_error());
+    status = create(argv[1], settings.timeout, argc == 4 ? argv[3] : NULL, restart != NULL ? &point : NULL, &client);
+    if (status == GIMDEM_OK) status = run(client, &settings, argv[2], &point, begin, table);
+    if (status != GIMDEM_OK && gimdem_client_last_error()[0] != 0)
+        fprintf(stderr, "column-c: %s\n", gimdem_client_last_error());
     gimdem_client_destroy(client);
     fclose(table);
     return status == GIMDEM_OK && write_profile(argv[2]) ? 0 : 1;

@@ -2,16 +2,22 @@
 /// A whole fluid solver in one file, coupled with Client.hpp: the gas in a column of cells, one above the other.
 /// column.c and column.py are the same solver in C and in Python.
 ///
-/// Usage: column-cpp <endpoint> <run folder> [folder of keys], which has constant/column; writes column.csv (a line a
-/// step) and profile.csv (a line a cell, at the end) there.
+/// Usage: column-cpp <endpoint> <run folder> [folder of keys] [--restart <state>]; the run folder has constant/column.
+/// Writes column.csv (a line a step), profile.csv (a line a cell, at the end) and states/, from which it goes on,
+/// there.
 ///
 /// Volume-averaged equations of a gas of constant density (theory.md, F.1 and F.2) in one dimension, where friction at
 /// the walls and inertia are neglected: with q the superficial velocity and S the force of the particles per volume,
 ///     d(alpha)/dt + dq/dz = 0,                so  q rises from cell to cell by what the particles displace;
 ///     0 = -alpha dp/dz + alpha rho g + S,     S = M - K v (C.5),  v = q / alpha.
+#include <unistd.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
 #include <map>
 #include <sstream>
@@ -156,6 +162,24 @@ struct Column
         }
     }
 
+    /// All that the next step needs, beside what follows from it.
+    void write(std::ostream& out) const
+    {
+        out << "applied_force " << applied_force << '\n';
+        for (std::size_t k = 0; k < n; ++k)
+            out << void_fraction[k] << ' ' << velocity[3 * k + 2] << ' ' << pressure_gradient[3 * k + 2] << '\n';
+    }
+
+    void read(std::istream& in)
+    {
+        std::string name;
+        in >> name >> applied_force;
+        for (std::size_t k = 0; k < n; ++k)
+            in >> void_fraction[k] >> velocity[3 * k + 2] >> pressure_gradient[3 * k + 2];
+        integrate_pressure();
+        differentiate();
+    }
+
     FluidFields fields() const
     {
         return {velocity, velocity_gradient, pressure_gradient, void_fraction_gradient, pressure};
@@ -181,7 +205,70 @@ struct Column
     double outflow = 0;        ///< superficial velocity at the outlet [m/s]
 };
 
-void run(std::string const& endpoint, std::string const& folder, std::string const& keys)
+/// Where the gas goes on: a text that names the particles' checkpoint, then the resume point, then the column.
+struct State
+{
+    ResumePoint point;
+    long steps = 0;  ///< of the gas since the run began
+};
+
+/// A file is there once it is whole and on disk.
+void write_whole(std::filesystem::path const& file, std::string const& text)
+{
+    std::filesystem::path const part = file.string() + ".part";
+    std::FILE* const out = std::fopen(part.c_str(), "w");
+    bool good = out && std::fputs(text.c_str(), out) >= 0 && std::fflush(out) == 0 && ::fsync(::fileno(out)) == 0;
+    good = (!out || std::fclose(out) == 0) && good;
+    if (!good) throw std::runtime_error(file.string() + " cannot be written");
+    std::filesystem::rename(part, file);
+}
+
+void write_state(std::string const& folder, SavedCheckpoint const& saved, double time, long steps, Column const& column)
+{
+    std::ostringstream text;
+    text.precision(17);
+    text << "checkpoint " << saved.name << "\nsession " << saved.session << "\nstep " << saved.step << "\ntime " << time
+         << "\nsteps " << steps << '\n';
+    column.write(text);
+    text << "end\n";
+    std::ostringstream name;
+    name << std::setw(9) << std::setfill('0') << steps << ".state";
+    std::filesystem::create_directories(folder + "/states");
+    write_whole(folder + "/states/" + name.str(), text.str());
+}
+
+State read_state(std::string const& file_name, Column& column)
+{
+    std::ifstream in(file_name);
+    State state;
+    std::string name, checkpoint, end;
+    in >> name >> checkpoint >> name >> state.point.session >> name >> state.point.step >> name >> state.point.time >>
+        name >> state.steps;
+    column.read(in);
+    if (!(in >> end) || end != "end") throw std::runtime_error(file_name + " cannot be read, or is of another column");
+    return state;
+}
+
+/// column.csv; of a run that goes on in its folder, without the lines behind that time.
+std::ofstream open_table(std::string const& file_name, double time)
+{
+    std::ostringstream kept;
+    std::ifstream before(file_name);
+    double last = -1;
+    for (std::string line; std::getline(before, line);)
+    {
+        double t = 0;
+        if (!(std::istringstream(line) >> t) || t <= last || t > time) continue;
+        kept << line << '\n';
+        last = t;
+    }
+    std::ofstream table(file_name);
+    table.precision(17);
+    table << "time,inflow,outflow,pressure_drop,applied_force\n" << kept.str();
+    return table;
+}
+
+void run(std::string const& endpoint, std::string const& folder, std::string const& keys, std::string const& restart)
 {
     auto const settings = read_settings(folder + "/constant/column");
     int const n = static_cast<int>(settings.at("cells"));
@@ -196,26 +283,40 @@ void run(std::string const& endpoint, std::string const& folder, std::string con
     options.name = "column-cpp";
     options.timeout = settings.at("timeout");
     options.keys = keys;
+    State begin;
+    if (!restart.empty())
+    {
+        begin = read_state(restart, column);
+        options.resume = begin.point;
+    }
     Client client(options);
     Welcome const& welcome = client.connect({settings.at("density"), settings.at("viscosity")});
     client.send_mesh(view_of(mesh));
-    column.start(client.solid());
-    column.advance(client.solid(), inflow_at(0), dt);
+    if (restart.empty())
+    {
+        column.start(client.solid());
+        column.advance(client.solid(), inflow_at(0), dt);
+    }
 
-    std::ofstream table(folder + "/column.csv");
-    table.precision(17);
-    table << "time,inflow,outflow,pressure_drop,applied_force\n";
+    std::ofstream table = open_table(folder + "/column.csv", begin.point.time);
     long const steps = std::lround(welcome.end_time / dt);
-    for (long i = 1; i <= steps && !client.stop_request(); ++i)
+    long const steps_per_state = std::max(1L, std::lround(settings.at("save_interval") / dt));
+    std::int64_t complete = begin.point.step;  // the newest checkpoint of which we have a state
+    for (long i = begin.steps + 1; i <= steps && !client.stop_request(); ++i)
     {
         SolidFields const& solid = client.begin_step(
-            {i, dt * static_cast<double>(i - 1), dt}, column.fields(),
+            {i - begin.steps, dt * static_cast<double>(i - 1), dt}, column.fields(),
             {{"applied_force_x", 0, "N"}, {"applied_force_y", 0, "N"}, {"applied_force_z", column.applied_force, "N"}});
         double const t = dt * static_cast<double>(i);
         column.advance(solid, inflow_at(t), dt);
         client.end_step();
         table << t << ',' << inflow_at(t) << ',' << column.outflow << ',' << column.pressure_drop << ','
               << column.applied_force << '\n';
+        if (!welcome.saves_checkpoints || (i % steps_per_state != 0 && i != steps && !client.stop_request())) continue;
+        table.flush();
+        SavedCheckpoint const saved = client.save_checkpoint(t, complete);
+        write_state(folder, saved, t, i, column);
+        complete = saved.step;
     }
     table.close();
     column.write_profile(folder + "/profile.csv");
@@ -226,14 +327,21 @@ void run(std::string const& endpoint, std::string const& folder, std::string con
 
 int main(int argc, char** argv)
 {
-    if (argc != 3 && argc != 4)
+    std::vector<std::string> words(argv + 1, argv + argc);
+    std::string restart;
+    if (words.size() > 2 && words[words.size() - 2] == "--restart")
     {
-        std::cerr << "usage: column-cpp <endpoint> <run folder> [folder of keys]\n";
+        restart = words.back();
+        words.resize(words.size() - 2);
+    }
+    if (words.size() != 2 && words.size() != 3)
+    {
+        std::cerr << "usage: column-cpp <endpoint> <run folder> [folder of keys] [--restart <state>]\n";
         return 2;
     }
     try
     {
-        run(argv[1], argv[2], argc == 4 ? argv[3] : "");
+        run(words[0], words[1], words.size() == 3 ? words[2] : "", restart);
         return 0;
     }
     catch (std::exception const& error)

@@ -2,19 +2,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The solver of column.cpp in Python, coupled with coupling/python/gimdem_client.
 
-Usage: column.py <endpoint> <run folder> [folder of keys], which has constant/column; writes column.csv (a line a step) and
-profile.csv (a line a cell, at the end) there.
+Usage: column.py <endpoint> <run folder> [folder of keys] [--restart <state>]; the run folder has constant/column.
+Writes column.csv (a line a step), profile.csv (a line a cell, at the end) and states/, from which it goes on, there.
 """
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
+from typing import Optional, TextIO
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "coupling" / "python"))
 from gimdem_client import (Client, ClientOptions, CouplingError, FluidFields, FluidProperties, Mesh, Monitor,  # noqa: E402
-                           Patch, SolidFields, Step)
+                           Patch, ResumePoint, SavedCheckpoint, SolidFields, Step)
 
 GRAVITY = -9.81  # along z [m/s^2]
 
@@ -93,6 +95,19 @@ class Column:
         self.fields.velocity_gradient[:, 8] = (v[above] - v[below]) / distance
         self.fields.void_fraction_gradient[:, 2] = (self.void_fraction[above] - self.void_fraction[below]) / distance
 
+    def lines(self) -> list[str]:
+        """All that the next step needs, beside what follows from it."""
+        cells = zip(self.void_fraction, self.fields.velocity[:, 2], self.fields.pressure_gradient[:, 2])
+        return [f"applied_force {self.applied_force!r}",
+                *(" ".join(repr(float(value)) for value in cell) for cell in cells)]
+
+    def read(self, lines: list[str]) -> None:
+        self.applied_force = float(lines[0].split()[1])
+        cells = np.array([[float(word) for word in line.split()] for line in lines[1:]])
+        self.void_fraction, self.fields.velocity[:, 2], self.fields.pressure_gradient[:, 2] = cells.T.copy()
+        self._integrate_pressure()
+        self._differentiate()
+
     def write_profile(self, file: Path) -> None:
         lines = ["height,void_fraction,velocity,pressure"]
         for k in range(self.n):
@@ -101,7 +116,48 @@ class Column:
         file.write_text("\n".join(lines) + "\n")
 
 
-def run(endpoint: str, folder: Path, keys: str) -> None:
+def write_state(folder: Path, saved: SavedCheckpoint, time: float, steps: int, column: Column) -> None:
+    """Where the gas goes on: a text that names the particles' checkpoint, then the resume point, then the column. The file is
+    there once it is whole and on disk. steps: of the gas since the run began."""
+    lines = [f"checkpoint {saved.name}", f"session {saved.session}", f"step {saved.step}", f"time {time!r}",
+             f"steps {steps}", *column.lines(), "end"]
+    (folder / "states").mkdir(exist_ok=True)
+    file = folder / "states" / f"{steps:09d}.state"
+    part = file.with_suffix(".state.part")
+    with part.open("w") as out:
+        out.write("\n".join(lines) + "\n")
+        out.flush()
+        os.fsync(out.fileno())
+    part.rename(file)
+
+
+def read_state(file: Path, column: Column) -> tuple[ResumePoint, int]:
+    """The resume point and the number of steps of the gas since the run began; the column goes on from there."""
+    try:
+        lines = file.read_text().splitlines()
+        if lines[-1] != "end":
+            raise ValueError("it is cut short")
+        session, step, time, steps = (line.split()[1] for line in lines[1:5])
+        column.read(lines[5:-1])
+        return ResumePoint(int(session), int(step), float(time)), int(steps)
+    except (ValueError, IndexError) as error:
+        raise OSError(f"{file} cannot be read, or is of another column: {error}") from None
+
+
+def open_table(file: Path, time: float) -> TextIO:
+    """column.csv; of a run that goes on in its folder, without the lines behind that time."""
+    kept, last = [], -1.0
+    for line in file.read_text().splitlines()[1:] if file.exists() else []:
+        t = float(line.split(",")[0] or "inf")
+        if last < t <= time:
+            kept.append(line)
+            last = t
+    table = file.open("w")
+    print("time,inflow,outflow,pressure_drop,applied_force", *kept, sep="\n", file=table)
+    return table
+
+
+def run(endpoint: str, folder: Path, keys: str, restart: Optional[Path]) -> None:
     settings = read_settings(folder / "constant" / "column")
     n, dt = int(settings["cells"]), settings["time_step"]
     column = Column(n, settings["height"] / n, settings["width"] * settings["depth"], settings["density"])
@@ -109,35 +165,47 @@ def run(endpoint: str, folder: Path, keys: str) -> None:
     def inflow_at(t: float) -> float:
         return settings["inflow"] * min(1.0, t / settings["ramp_time"])
 
-    with Client(ClientOptions(endpoint, "column-python", timeout=settings["timeout"], keys=keys)) as client, \
-            (folder / "column.csv").open("w") as table:
+    resume, begin = read_state(restart, column) if restart else (None, 0)
+    complete = resume.step if resume else 0  # the newest checkpoint of which we have a state
+    with Client(ClientOptions(endpoint, "column-python", timeout=settings["timeout"], keys=keys, resume=resume)) as client, \
+            open_table(folder / "column.csv", resume.time if resume else 0.0) as table:
         welcome = client.connect(FluidProperties(settings["density"], settings["viscosity"]))
         client.send_mesh(make_mesh(n, settings["width"], settings["depth"], settings["height"]))
-        column.start(client.solid)
-        column.advance(client.solid, inflow_at(0), dt)
+        if not resume:
+            column.start(client.solid)
+            column.advance(client.solid, inflow_at(0), dt)
 
-        print("time,inflow,outflow,pressure_drop,applied_force", file=table)
-        for i in range(1, round(welcome.end_time / dt) + 1):
+        steps, steps_per_state = round(welcome.end_time / dt), max(1, round(settings["save_interval"] / dt))
+        for i in range(begin + 1, steps + 1):
             if client.stop_request:
                 break
             monitors = [Monitor("applied_force_x", 0.0, "N"), Monitor("applied_force_y", 0.0, "N"),
                         Monitor("applied_force_z", column.applied_force, "N")]
-            solid = client.begin_step(Step(i, dt * (i - 1), dt), column.fields, monitors)
+            solid = client.begin_step(Step(i - begin, dt * (i - 1), dt), column.fields, monitors)
             t = dt * i
             column.advance(solid, inflow_at(t), dt)
             client.end_step()
             print(f"{t!r},{inflow_at(t)!r},{column.outflow!r},{column.pressure_drop!r},{column.applied_force!r}",
                   file=table)
+            if welcome.saves_checkpoints and (i % steps_per_state == 0 or i == steps or client.stop_request):
+                table.flush()
+                saved = client.save_checkpoint(t, complete)
+                write_state(folder, saved, t, i, column)
+                complete = saved.step
         column.write_profile(folder / "profile.csv")
         client.finish("stopped as asked" if client.stop_request else "end time reached")
 
 
 def main() -> int:
-    if len(sys.argv) not in (3, 4):
-        print("usage: column.py <endpoint> <run folder> [folder of keys]", file=sys.stderr)
+    words, restart = sys.argv[1:], None
+    if len(words) > 2 and words[-2] == "--restart":
+        restart = Path(words[-1])
+        words = words[:-2]
+    if len(words) not in (2, 3):
+        print("usage: column.py <endpoint> <run folder> [folder of keys] [--restart <state>]", file=sys.stderr)
         return 2
     try:
-        run(sys.argv[1], Path(sys.argv[2]), "".join(sys.argv[3:]))
+        run(words[0], Path(words[1]), "".join(words[2:]), restart)
         return 0
     except (CouplingError, OSError, KeyError) as error:
         print(f"column-python: {error}", file=sys.stderr)

@@ -180,8 +180,9 @@ void Channel::beat(Time now)
 void Channel::lose()
 {
     lost_ = true;
-    receive_some(last_messages);  // the last words of the peer, which may explain it
-    end({});
+    receive_some(last_messages);                    // the last words of the peer, which may explain it
+    static_cast<void>(socket_.connection_broke());  // and a refusal, which may have come since we looked
+    end({socket_.was_refused() ? Ending::Kind::refused : Ending::Kind::lost, 0, ""});
 }
 
 void Channel::end(Ending ending)

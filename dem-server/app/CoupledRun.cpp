@@ -112,7 +112,8 @@ coupling::StepCells CoupledRun::cells_to_send(double time)
 double CoupledRun::begin_step(coupling::FluidState const& fluid, double waited)
 {
     accept();
-    coupling_log_.arrived(fluid, waited, server_.bytes());
+    bytes_ = server_.bytes();
+    coupling_log_.arrived(fluid, waited, bytes_);
     if (at_.step == start_.step) check_start(fluid.step);
     double const output_time = log_.sample(fluid, engine_);
     if (schedule_ == coupling::Schedule::iterated) engine_.remember();

@@ -49,6 +49,7 @@ public:
 
 private:
     void settle();
+    void warn_of_added_mass();
     void load(std::filesystem::path const& file);
     void accept_mesh();
     void finish_records();
@@ -87,6 +88,8 @@ private:
     std::int64_t complete_step_ = 0;  ///< of the newest checkpoint to which the client has a fluid
     bool is_asked_ = false;           ///< the client asks for checkpoints
     std::int64_t kept_ = -1;          ///< step of the last checkpoint
+    double bytes_before_ = 0;         ///< that sessions with clients that were lost have moved
+    double bytes_ = 0;                ///< of this session until the last step
     bool is_in_step_ = false;         ///< the particles move: theirs is the state of no time
 };
 

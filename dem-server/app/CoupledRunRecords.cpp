@@ -55,7 +55,7 @@ void CoupledRun::finish_records()
 {
     coupling_log_.add_to(log_.summary());
     observer_.finish(log_.summary());
-    log_.finish(server_.bytes());
+    log_.finish(bytes_before_ + server_.bytes());
 }
 
 bool CoupledRun::is_checkpoint_between(double before, double now) const

@@ -32,10 +32,11 @@ std::string describe(Case const& settings)
     for (std::string const& grid : settings.run.grids)
         grids += (grids.empty() ? "" : ", ") + quoted(grid);
     return fmt::format(
-        R"({{"title": {}, "client": {}, "grid": {}, "grids": [{}], "until": {}, "schedule": {}, "endpoint": {}, "timeout": {}, "connect_time": {}, "keys": {}, "threads": {}}})",
+        R"({{"title": {}, "client": {}, "grid": {}, "grids": [{}], "until": {}, "schedule": {}, "endpoint": {}, "timeout": {}, "connect_time": {}, "grace_time": {}, "keys": {}, "threads": {}}})",
         quoted(settings.title), quoted(settings.run.client), quoted(settings.run.grid), grids, settings.run.until,
         quoted(settings.coupling.schedule), quoted(settings.coupling.endpoint), settings.coupling.timeout,
-        settings.coupling.connect_time, quoted(settings.coupling.keys), settings.dem.threads);
+        settings.coupling.connect_time, settings.coupling.grace_time, quoted(settings.coupling.keys),
+        settings.dem.threads);
 }
 
 }  // namespace gimdem::app

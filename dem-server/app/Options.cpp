@@ -2,7 +2,6 @@
 #include "app/Options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
 
 #include "core/Error.hpp"
@@ -48,9 +47,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
     app.add_option("--grace-time", options.grace_time,
                    "how long a client that was lost may take to come back to its last checkpoint [s]; 0: it may not")
         ->check(CLI::NonNegativeNumber);
-    std::vector<std::string> encodings{"sparse"};
-    app.add_option("--encoding", encodings,
-                   "how fields travel, where the client can: sparse, float32, lz4, several of them, or dense (sparse)")
+    app.add_option("--encoding", options.encodings,
+                   "how fields travel, where the client can: sparse, float32, lz4, several of them, or dense")
         ->check(CLI::IsMember({"dense", "sparse", "float32", "lz4"}));
     app.add_option("--trace-steps", options.trace.steps, "write trace.json of so many steps, for Perfetto")
         ->check(CLI::NonNegativeNumber);
@@ -62,9 +60,6 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code)
     {
         app.parse(argc, argv);
         if (options.case_file.empty() && !options.status) throw CLI::RequiredError("--case");
-        auto const has = [&](char const* name)
-        { return std::find(encodings.begin(), encodings.end(), name) != encodings.end(); };
-        options.encodings = {.sparse = has("sparse"), .float32 = has("float32"), .lz4 = has("lz4")};
     }
     catch (CLI::ParseError const& error)
     {
@@ -80,6 +75,8 @@ Case read_case_with(Options const& options)
     Case settings = read_case(options.case_file);
     if (options.endpoint) settings.coupling.endpoint = *options.endpoint;
     if (options.keys) settings.coupling.keys = std::filesystem::absolute(*options.keys);
+    if (options.grace_time) settings.coupling.grace_time = *options.grace_time;
+    if (!options.encodings.empty()) settings.coupling.encodings = options.encodings;
     if (options.schedule) settings.coupling.schedule = *options.schedule;
     if (options.until)
     {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/Case.hpp"
-#include "gimdem/coupling/CellRuns.hpp"
 #include "output/StepTrace.hpp"
 
 namespace gimdem::app
@@ -19,16 +19,15 @@ struct Options
     std::filesystem::path run_folder = ".";  ///< results go here
     bool describe = false;                   ///< print the case as JSON and stop
     std::optional<std::string> endpoint, schedule, device, precision;
-    std::optional<double> until;
+    std::optional<double> until, grace_time;  ///< [s]
     std::optional<int> threads;
     std::optional<std::filesystem::path> keys;     ///< folder, docs/security.md
     std::optional<std::filesystem::path> restart;  ///< checkpoint to go on from
-    double grace_time = 0;                         ///< a lost client may come back within it [s]
     output::TraceChoice trace;
-    coupling::Encodings encodings{.sparse = true};  ///< of the fields, where the client can do them
-    std::optional<std::string> status;              ///< ask the server at this endpoint how its run stands, and stop
-    bool json = false;                              ///< the answer for programs
-    double patience = 5;                            ///< for the answer [s]
+    std::vector<std::string> encodings;  ///< of the fields; empty: as the case file says
+    std::optional<std::string> status;   ///< ask the server at this endpoint how its run stands, and stop
+    bool json = false;                   ///< the answer for programs
+    double patience = 5;                 ///< for the answer [s]
 };
 
 /// Empty when the program has nothing to do (help, version, wrong usage): exit_code tells the status.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -14,13 +15,21 @@
 namespace gimdem::app
 {
 
+namespace
+{
+
+coupling::Encodings encodings_of(CouplingSettings const& settings)
+{
+    auto const has = [&](char const* name)
+    { return std::find(settings.encodings.begin(), settings.encodings.end(), name) != settings.encodings.end(); };
+    return {.sparse = has("sparse"), .float32 = has("float32"), .lz4 = has("lz4")};
+}
+
+}  // namespace
+
 Reception::Reception(Case const& settings, std::filesystem::path const& folder, RunEvents& events,
-                     coupling::Server::CheckpointSaver saver, coupling::Encodings const& encodings)
-    : settings_(settings),
-      folder_(std::filesystem::absolute(folder)),
-      events_(events),
-      saver_(std::move(saver)),
-      encodings_(encodings)
+                     coupling::Server::CheckpointSaver saver)
+    : settings_(settings), folder_(std::filesystem::absolute(folder)), events_(events), saver_(std::move(saver))
 {
     open(settings.coupling.endpoint, settings.coupling.connect_time);
 }
@@ -33,7 +42,7 @@ void Reception::open(std::string const& endpoint, double patience)
                                 .name = "gimdem-server " GIMDEM_VERSION,
                                 .timeout = settings_.coupling.timeout,
                                 .connect_time = patience,
-                                .encodings = encodings_,
+                                .encodings = encodings_of(settings_.coupling),
                                 .keys = settings_.coupling.keys,
                                 .log = [events = &events_](std::string const& text) { events->warn("coupling", text); },
                                 .clock_origin = clock_origin()});
@@ -54,7 +63,6 @@ coupling::ClientInfo Reception::meet()
 bool Reception::meet_again(CoupledRun& run, double grace_time, std::string const& reason)
 {
     auto const lost = std::chrono::steady_clock::now();
-    events_.say("client_lost", fmt::format("{}; waiting {:g} s for a client that goes on", reason, grace_time));
     sessions_.insert(server_->session_number());
     std::string const endpoint = server_->endpoint();
     for (double left = grace_time; left > 0; left = grace_time - seconds_since(lost))
@@ -62,6 +70,9 @@ bool Reception::meet_again(CoupledRun& run, double grace_time, std::string const
         try
         {
             open(endpoint, left);
+            if (left == grace_time)  // only now may somebody come
+                events_.say("client_lost",
+                            fmt::format("{}; waiting {:g} s for a client that goes on", reason, grace_time));
             go_on(run);
             return true;
         }

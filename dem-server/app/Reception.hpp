@@ -23,7 +23,7 @@ class Reception
 {
 public:
     Reception(Case const& settings, std::filesystem::path const& folder, RunEvents& events,
-              coupling::Server::CheckpointSaver saver, coupling::Encodings const& encodings);
+              coupling::Server::CheckpointSaver saver);
 
     /// The same object for all sessions.
     coupling::Server& server() { return *server_; }
@@ -43,7 +43,6 @@ private:
     std::filesystem::path folder_;
     RunEvents& events_;
     coupling::Server::CheckpointSaver saver_;
-    coupling::Encodings encodings_;
     std::optional<coupling::Server> server_;
     std::set<std::uint64_t> sessions_;  ///< of this run so far
 };

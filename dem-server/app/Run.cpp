@@ -79,7 +79,7 @@ void serve(Reception& reception, CoupledRun& run, std::optional<std::filesystem:
 }  // namespace
 
 void run(Case const& settings, std::filesystem::path const& folder, std::optional<std::filesystem::path> const& restart,
-         double grace_time, output::TraceChoice const& trace, coupling::Encodings const& encodings)
+         output::TraceChoice const& trace)
 {
     refuse_periodic_coupled_run(settings);
     std::filesystem::create_directories(folder);
@@ -87,8 +87,7 @@ void run(Case const& settings, std::filesystem::path const& folder, std::optiona
     Materials const materials(settings);
     ParticleState particles = checked_particles(settings, materials);
     std::unique_ptr<CoupledRun> coupled;
-    Reception reception(
-        settings, folder, events, [&](auto const& request) { return coupled->save(request); }, encodings);
+    Reception reception(settings, folder, events, [&](auto const& request) { return coupled->save(request); });
     events.say(
         "listening",
         fmt::format("{} particles, waiting for a client at {}", particles.count(), reception.server().endpoint()),
@@ -101,7 +100,7 @@ void run(Case const& settings, std::filesystem::path const& folder, std::optiona
         require_checkpoint_for(client, restart.has_value());
         coupled = std::make_unique<CoupledRun>(settings, folder, reception.server(), client, std::move(particles),
                                                materials, events, trace);
-        serve(reception, *coupled, restart, grace_time);
+        serve(reception, *coupled, restart, settings.coupling.grace_time);
         events.note("finished", reception.server().goodbye_reason());
     }
     catch (UserError const& error)

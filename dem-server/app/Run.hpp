@@ -5,19 +5,17 @@
 #include <optional>
 
 #include "core/Case.hpp"
-#include "gimdem/coupling/CellRuns.hpp"
 #include "output/StepTrace.hpp"
 
 namespace gimdem::app
 {
 
 /// A whole run: wait for a client, take its mesh, settle or load the bed, couple until the client says goodbye. Results
-/// and checkpoints go to `folder`. With `restart`, it goes on from that checkpoint instead of a bed. A client that is
-/// lost may come back within `grace_time` [s], 0: it may not. `trace`: how much of the run goes to trace.json.
-/// `encodings`: of the fields, where the client can do them. Throws UserError or coupling::CouplingError; the client is
-/// told why before either leaves.
+/// and checkpoints go to `folder`. With `restart`, it goes on from that checkpoint instead of a bed. `trace`: how much
+/// of the run goes to trace.json. Throws UserError or coupling::CouplingError; the client is told why before either
+/// leaves.
 void run(Case const& settings, std::filesystem::path const& folder, std::optional<std::filesystem::path> const& restart,
-         double grace_time, output::TraceChoice const& trace, coupling::Encodings const& encodings);
+         output::TraceChoice const& trace);
 
 /// From now on Ctrl-C asks for an orderly end; before, as while waiting for a client, it ends the process at once.
 void heed_interrupts();

@@ -77,8 +77,7 @@ int main(int argc, char** argv)
         if (settings.run.client == "none")
             gimdem::app::run_alone(settings, options->run_folder, options->restart);
         else
-            gimdem::app::run(settings, options->run_folder, options->restart, options->grace_time, options->trace,
-                             options->encodings);
+            gimdem::app::run(settings, options->run_folder, options->restart, options->trace);
         return 0;
     }
     catch (std::exception const& error)

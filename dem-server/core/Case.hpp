@@ -27,16 +27,18 @@ struct RunSettings
 /// [coupling]
 struct CouplingSettings
 {
-    std::string schedule = "serial";  ///< serial | overlapped | iterated
-    std::string endpoint = "ipc";     ///< ipc | ipc:///path | tcp://127.0.0.1:port
-    std::filesystem::path keys;       ///< folder; empty: none
-    double timeout = 30;              ///< a peer silent for this long is dead [s]
-    double connect_time = 120;        ///< wait for the client to appear [s]
-    std::int64_t fluid_steps = 1;     ///< equal fluid steps of a coupling step
-    double tolerance = 1e-4;          ///< of schedule iterated: relative residual of a step
-    std::int64_t max_passes = 20;     ///< of a step of schedule iterated
-    double relaxation = 0.5;          ///< factor of the first pass
-    bool must_converge = false;       ///< a step that did not ends the run
+    std::string schedule = "serial";               ///< serial | overlapped | iterated
+    std::string endpoint = "ipc";                  ///< ipc | ipc:///path | tcp://127.0.0.1:port
+    std::filesystem::path keys;                    ///< folder; empty: none
+    double timeout = 30;                           ///< a peer silent for this long is dead [s]
+    double connect_time = 120;                     ///< wait for the client to appear [s]
+    double grace_time = 0;                         ///< a client that was lost may come back within it [s]
+    std::vector<std::string> encodings{"sparse"};  ///< how fields travel, where the client can
+    std::int64_t fluid_steps = 1;                  ///< equal fluid steps of a coupling step
+    double tolerance = 1e-4;                       ///< of schedule iterated: relative residual of a step
+    std::int64_t max_passes = 20;                  ///< of a step of schedule iterated
+    double relaxation = 0.5;                       ///< factor of the first pass
+    bool must_converge = false;                    ///< a step that did not ends the run
 };
 
 /// [dem]

@@ -45,6 +45,16 @@ void check_grid(RunSettings const& run, Document const& document)
                     "\" in [run] is not on offer (it is not in grids); " + suggest_key(run.grid, run.grids));
 }
 
+void check_encodings(CouplingSettings const& coupling, Document const& document)
+{
+    auto const has = [&](char const* name)
+    { return std::find(coupling.encodings.begin(), coupling.encodings.end(), name) != coupling.encodings.end(); };
+    if (has("sparse") && has("dense"))
+        throw UserError(document.at("coupling.encodings") +
+                        ": \"encodings\" in [coupling] has sparse and dense (fields travel in one way or the other); "
+                        "remove one");
+}
+
 std::vector<std::string> material_names(Case const& input)
 {
     std::vector<std::string> names;
@@ -170,6 +180,7 @@ void check_output(OutputSettings const& output, Document const& document)
 void check_case(Case const& input, Document const& document)
 {
     check_grid(input.run, document);
+    check_encodings(input.coupling, document);
     check_material_names(input, document);
     check_contacts(input, document);
     check_contact_laws(input, document);

@@ -117,6 +117,18 @@ void read_integer(Node const& node, Integer& target)
     target = static_cast<Integer>(*number);
 }
 
+void check_word(Node const& node, std::string const& word)
+{
+    auto const& rule = node.setting.rule;
+    if (!rule.string_ok || rule.string_ok(word)) return;
+    std::string const nearest = nearest_key(word, rule.words);
+    if (!nearest.empty())
+        throw UserError(locate(node.file, &node.value) + ": \"" + node.setting.key + '"' +
+                        in_section(node.section, node.section_is_list) + " is \"" + word + "\" (must be " + rule.text +
+                        "); did you mean \"" + nearest + "\"?");
+    fail_rule(node, to_text(word));
+}
+
 }  // namespace
 
 void Node::fail(std::string const& problem, std::string const& reason) const
@@ -156,14 +168,7 @@ void read(Node const& node, bool& target)
 void read(Node const& node, std::string& target)
 {
     target = to_string(node, node.value);
-    auto const& rule = node.setting.rule;
-    if (!rule.string_ok || rule.string_ok(target)) return;
-    std::string const nearest = nearest_key(target, rule.words);
-    if (!nearest.empty())
-        throw UserError(locate(node.file, &node.value) + ": \"" + node.setting.key + '"' +
-                        in_section(node.section, node.section_is_list) + " is \"" + target + "\" (must be " +
-                        rule.text + "); did you mean \"" + nearest + "\"?");
-    fail_rule(node, to_text(target));
+    check_word(node, target);
 }
 
 void read(Node const& node, std::filesystem::path& target)
@@ -203,7 +208,10 @@ void read(Node const& node, std::vector<std::string>& target)
     if (!node.value.is_array()) fail_type(node);
     target.clear();
     for (auto const& element : *node.value.as_array())
+    {
         target.push_back(to_string(node, element));
+        check_word(node, target.back());
+    }
 }
 
 void read(Node const& node, std::vector<double>& target)

@@ -64,6 +64,11 @@ Fields<CouplingSettings> const& settings_of(CouplingSettings const&)
         optional("timeout",      &S::timeout,      "s", above(0), "30.0", "a peer silent for this long is dead"),
         optional("connect_time", &S::connect_time, "s", above(0), "120.0",
                  "how long to wait for the fluid solver to appear"),
+        optional("grace_time",   &S::grace_time,   "s", at_least(0), "600.0",
+                 "how long a client that was lost may take to come back to its last checkpoint; 0: it may not"),
+        optional("encodings",    &S::encodings,    "", one_of({"sparse", "dense", "float32", "lz4"}), "[\"sparse\", \"lz4\"]",
+                 "how fields travel, where the client can: of cells with particles alone (sparse) or of all (dense), "
+                 "rounded, compressed; protocol.md"),
         optional("fluid_steps",  &S::fluid_steps,  "", between(0, 1001), "1",
                  "the solvers meet after so many time steps of the fluid; theory.md (C.13)"),
         optional("tolerance",    &S::tolerance,    "", between(0, 1), "1e-4",

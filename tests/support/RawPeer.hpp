@@ -89,7 +89,8 @@ public:
     {
         auto const message = receive(seconds);
         if (!message) return "(nothing came)";
-        if (!message->envelope.has_error()) return "(not an Error: " + message->envelope.ShortDebugString() + ")";
+        if (!message->envelope.has_error())
+            return "(not an Error, but kind " + std::to_string(message->envelope.kind_case()) + ")";
         return message->envelope.error().reason();
     }
 

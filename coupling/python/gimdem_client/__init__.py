@@ -12,7 +12,8 @@
 
 Needs pyzmq, protobuf, numpy and, for its first import, protoc. SI units; arrays of numpy with a row for each cell.
 Each call raises CouplingError on a fault. Fields travel as plain frames, never through shared memory; one process solves the
-fluid. Schedule iterated: iterate_step() between begin_step() and end_step() repeats the step.
+fluid. Schedule iterated: iterate_step() between begin_step() and end_step() repeats the step. save_checkpoint() between two
+steps, and ClientOptions.resume: to go on after a stop, docs/write-a-client.md, 5.
 """
 from .client import Client
 from .errors import CouplingError, Fault

@@ -20,14 +20,17 @@ from .wire import Envelope
 
 BEATS_PER_TIMEOUT = 5  # docs/protocol.md, Time-outs
 MAX_FRAME_BYTES = 4 << 30
+MISFITS = zmq.EVENT_HANDSHAKE_FAILED_NO_DETAIL | zmq.EVENT_HANDSHAKE_FAILED_PROTOCOL  # of the keys, or only one side has any
+REFUSAL = zmq.EVENT_HANDSHAKE_FAILED_AUTH  # the server does not know our key
 
 
 class Ending:
     """Why nothing more will come."""
 
-    def __init__(self, silence: Optional[float] = None, detail: str = "") -> None:
+    def __init__(self, silence: Optional[float] = None, detail: str = "", refused: bool = False) -> None:
         self.silence = silence  # [s], None: the connection broke
         self.detail = detail
+        self.refused = refused  # the server has turned us away
 
 
 Letter = tuple[Envelope, list[bytes], float]  # with the time of its arrival
@@ -37,6 +40,7 @@ class Channel:
     def __init__(self, endpoint: str, timeout: float, heartbeat: Callable[[], bytes],
                  keys: Optional[Keys] = None) -> None:
         self.contact = threading.Event()  # the server has said something
+        self.misfit = False  # of the keys: a handshake has failed
         self.last_heartbeat: Optional[Envelope] = None  # of the server
         self.bytes = 0
         self._timeout = timeout
@@ -44,11 +48,12 @@ class Channel:
         self._heartbeat = heartbeat
         self._incoming: queue.Queue[Union[Letter, Ending, Exception]] = queue.Queue()
         self._outgoing: queue.SimpleQueue[list[bytes]] = queue.SimpleQueue()
+        self._news = threading.Event()  # contact, or an end before it
         self._closing = False
         self._ended = False
         self._context = zmq.Context()
         self._socket = self._connect(endpoint, keys)
-        self._monitor = self._socket.get_monitor_socket(zmq.EVENT_HANDSHAKE_SUCCEEDED | zmq.EVENT_DISCONNECTED)
+        self._monitor = self._socket.get_monitor_socket(zmq.EVENT_HANDSHAKE_SUCCEEDED | zmq.EVENT_DISCONNECTED | MISFITS | REFUSAL)
         self._wakeup, self._woken = self._pair()
         self._thread = threading.Thread(target=self._run, name="gimdem channel", daemon=True)
         self._thread.start()
@@ -57,6 +62,10 @@ class Channel:
         self.bytes += sum(len(frame) for frame in frames)
         self._outgoing.put(frames)
         self._wakeup.send(b"")
+
+    def wait_for_contact(self, patience: float) -> bool:
+        """False: nobody has answered within `patience` [s]. True: receive() has the answer, or the end."""
+        return self._news.wait(patience)
 
     def receive(self, patience: float) -> Union[Letter, Ending, Exception, None]:
         """The next thing that came; None: nothing within `patience` [s]."""
@@ -127,6 +136,7 @@ class Channel:
                 if not self.contact.is_set():
                     next_beat = now
                     self.contact.set()
+                    self._news.set()
                 last_heard = now
             if broke:
                 self._end(Ending())
@@ -144,6 +154,9 @@ class Channel:
         broke = False
         while self._monitor.poll(0):
             event = recv_monitor_message(self._monitor)["event"]
+            self.misfit = self.misfit or bool(event & MISFITS)
+            if event == REFUSAL:
+                self._end(Ending(refused=True))
             greeted = greeted or event == zmq.EVENT_HANDSHAKE_SUCCEEDED
             broke = broke or (greeted and event == zmq.EVENT_DISCONNECTED)
         return broke, greeted
@@ -183,3 +196,4 @@ class Channel:
         if not self._ended:
             self._ended = True
             self._incoming.put(ending)
+            self._news.set()

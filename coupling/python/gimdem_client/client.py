@@ -84,9 +84,11 @@ class Client:
         self._record.stamp(hello)
         self._sent_at = time.monotonic()
         self._send(envelope)
-        if not self._channel.contact.wait(options.connect_time):
+        if not self._channel.wait_for_contact(options.connect_time):
+            why = "the keys do not fit, or only one side has any" if self._channel.misfit else \
+                "none runs there, or it is not a gimdem server"
             self._fail(Fault.ENDPOINT, f"no server has answered at {options.endpoint} within {options.connect_time:g} s "
-                       "(none runs there, or it is not a gimdem server); start gimdem-server with the same endpoint")
+                       f"({why}); start gimdem-server with the same endpoint and keys that belong together")
         told, _, arrival = self._receive("welcome")
         self._record.heard(told.welcome, self._sent_at, arrival)
         self._session = told.session
@@ -279,6 +281,9 @@ class Client:
         if ending.silence is not None:
             self._fail(Fault.TIMEOUT, f"{self._peer()} at {self.options.endpoint} has been silent for {ending.silence:.3g} s "
                        f"(time-out {self.options.timeout:g} s); {waiting}; see whether it was stopped or hangs")
+        if ending.refused:
+            self._fail(Fault.ENDPOINT, f"{self._peer()} at {self.options.endpoint} has turned us away (it does not know our key); "
+                       f"{waiting}; have its user put our client.public among its clients, see docs/security.md")
         self._fail(Fault.PEER, f"{self._peer()} at {self.options.endpoint} has disappeared (its connection broke"
                    f"{', ' + ending.detail if ending.detail else ''}); {waiting}; its own output should tell why")
 

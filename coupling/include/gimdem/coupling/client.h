@@ -19,6 +19,9 @@
  *     gimdem_client_finish(client, "end time reached");      Goodbye
  *     gimdem_client_destroy(client);
  *
+ * gimdem_client_save_checkpoint() between two steps, and options.resume in another run: to go on after a stop, see
+ * docs/write-a-client.md, 5.
+ *
  * Every function that returns a gimdem_status returns GIMDEM_OK or why it failed; gimdem_client_last_error() then has
  * the words. One client belongs to one thread at a time. SI units; arrays are flat and row-major; nothing that is
  * passed in is kept beyond the call.

@@ -140,7 +140,16 @@ class ClientInPython(unittest.TestCase):
         folder = str(self.folder / "keys")
         subprocess.run([str(self.build / "bin" / "gimdem-keys"), folder], check=True, stdout=subprocess.DEVNULL)
         self.start_server()
-        self.fails(Fault.ENDPOINT, "no server has answered", self.client(keys=folder, connect_time=1).connect, AIR)
+        self.fails(Fault.ENDPOINT, "the keys do not fit", self.client(keys=folder, connect_time=1).connect, AIR)
+
+    def test_unknown_key_is_told_at_once(self) -> None:
+        keys, others = (self.folder / name for name in ("keys", "others"))
+        for folder in (keys, others):
+            subprocess.run([str(self.build / "bin" / "gimdem-keys"), str(folder)], check=True, stdout=subprocess.DEVNULL)
+        shutil.copy(keys / "server.public", others / "server.public")
+        self.start_server("--keys", str(keys))
+        client = self.client(keys=str(others), connect_time=600)
+        self.fails(Fault.ENDPOINT, "has turned us away (it does not know our key)", client.connect, AIR)
 
     def test_last_words_reach_the_server(self) -> None:
         for end in ("client.abort('the gas ran out')", "raise ValueError('the gas ran out')",

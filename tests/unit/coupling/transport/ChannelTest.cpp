@@ -6,6 +6,8 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <filesystem>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -13,7 +15,9 @@
 #include <vector>
 
 #include "Endpoint.hpp"
+#include "KeyFolder.hpp"
 #include "RawMessages.hpp"
+#include "transport/Keys.hpp"
 
 namespace gimdem::coupling::transport
 {
@@ -132,6 +136,31 @@ TEST(Channel, TellsTheLastWordsBeforeTheLoss)
             std::this_thread::sleep_for(200ms);
         });
     EXPECT_EQ(owner.told(3), (Told{"got one", "got last words", "lost"}));
+}
+
+TEST(Channel, TellsOfARefusalAlsoWhereItFindsItBySending)
+{
+    // A client whose program comes to speak only when the server has turned it away, and whose next send fails.
+    test::KeyFolder const keys, strangers;
+    std::filesystem::copy_file(keys / "server.public", strangers / "server.public",
+                               std::filesystem::copy_options::overwrite_existing);
+    Channel const server(Socket::bind(test::any_tcp_endpoint(), read_server_keys(keys.path())), timeout, {});
+    std::promise<Channel*> made;
+    std::promise<Ending::Kind> ended;
+    ChannelHooks hooks;
+    hooks.note = [&, channel = made.get_future().share()](std::string const&)
+    {
+        std::this_thread::sleep_for(200ms);  // ZeroMQ takes the way to the server from us
+        Frames hello;
+        hello.emplace_back("hello", 5);
+        channel.get()->send(std::move(hello));
+    };
+    hooks.ended = [&](Ending ending) { ended.set_value(ending.kind); };
+    Channel client(Socket::connect(server.endpoint(), read_client_keys(strangers.path())), timeout, hooks);
+    made.set_value(&client);
+    auto kind = ended.get_future();
+    ASSERT_EQ(kind.wait_for(patience), std::future_status::ready);
+    EXPECT_EQ(kind.get(), Ending::Kind::refused);
 }
 
 TEST(Channel, TellsOfSilenceOnce)

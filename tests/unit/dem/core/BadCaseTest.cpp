@@ -111,6 +111,14 @@ Mistake const mistakes[] = {
      "write e.g. box = [[0.0, 0.0, 0.0], [0.05, 0.05, 0.05]]"},
 
     // words
+    {"NegativeGraceTime", "schedule = \"serial\"", "grace_time = -1.0",
+     "case.toml:7: \"grace_time\" in [coupling] is -1 (must be >= 0 s); write e.g. grace_time = 600.0"},
+    {"UnknownEncoding", "schedule = \"serial\"", "encodings = [\"lz4\", \"sparce\"]",
+     "case.toml:7: \"encodings\" in [coupling] is \"sparce\" (must be sparse | dense | float32 | lz4); did you mean \"sparse\"?"},
+    {"EncodingThatIsNoList", "schedule = \"serial\"", "encodings = \"lz4\"",
+     "case.toml:7: \"encodings\" in [coupling] is a text (an array of texts is needed); write e.g. encodings = [\"sparse\", \"lz4\"]"},
+    {"EncodingsThatExclude", "schedule = \"serial\"", "encodings = [\"sparse\", \"dense\"]",
+     "case.toml:7: \"encodings\" in [coupling] has sparse and dense (fields travel in one way or the other); remove one"},
     {"UnknownSchedule", "schedule = \"serial\"", "schedule = \"overlaped\"",
      "case.toml:7: \"schedule\" in [coupling] is \"overlaped\" (must be serial | overlapped | iterated); did you mean \"overlapped\"?"},
     {"UnknownBackend", "backend = \"serial\"", "backend = \"abacus\"",
