@@ -17,7 +17,7 @@ from typing import Callable
 
 import numpy as np
 
-from console import UserError
+from console import UserError, run_script
 from results import BedSeries, Figure, read_summary
 from vtp import read_cells, read_series
 
@@ -114,18 +114,5 @@ def figures_at_rest(run: Path) -> list[Figure]:
     ]
 
 
-def main(arguments: list[str]) -> int:
-    if len(arguments) != 1:
-        print(__doc__, file=sys.stderr)
-        return 2
-    try:
-        for figure in figures_at_rest(Path(arguments[0])):
-            print(figure)
-    except UserError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return error.code
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(run_script(__doc__, (1,), lambda run: figures_at_rest(Path(run)), sys.argv[1:]))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -20,6 +21,21 @@ class UserError(Exception):
 def say(label: str, text: str) -> None:
     """One line of what is going on, on stderr: stdout is for results."""
     print(f"{label + ':':<9} {text}", file=sys.stderr, flush=True)
+
+
+def run_script(usage: str | None, counts: tuple[int, ...], work: Callable[..., Iterable[object]],
+               arguments: list[str]) -> int:
+    """A script of so many arguments: prints line by line what the work returns; returns the exit code."""
+    if len(arguments) not in counts:
+        print(usage, file=sys.stderr)
+        return 2
+    try:
+        for line in work(*arguments):
+            print(line)
+    except UserError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return error.code
+    return 0
 
 
 def build_dir() -> Path:

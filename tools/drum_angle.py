@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from console import UserError
+from console import UserError, run_script
 from results import Figure
 from vtp import read_particles, read_series
 
@@ -45,18 +45,5 @@ def figures_of_drum(run: Path, begin: float) -> list[Figure]:
     ]
 
 
-def main(arguments: list[str]) -> int:
-    if len(arguments) not in (1, 2):
-        print(__doc__, file=sys.stderr)
-        return 2
-    try:
-        for figure in figures_of_drum(Path(arguments[0]), float(arguments[1]) if len(arguments) == 2 else 1.5):
-            print(figure)
-    except UserError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return error.code
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(run_script(__doc__, (1, 2), lambda run, begin="1.5": figures_of_drum(Path(run), float(begin)), sys.argv[1:]))

@@ -16,6 +16,7 @@ TARGETS = ("envelope", "mesh", "state_machine")
 SOURCE = ROOT / "tests" / "fuzz"
 MOST_BYTES = 1024  # of an input: a dozen messages
 MOST_SECONDS = 60  # for one input, on a busy machine
+INTERRUPTED = 72  # exit code of libFuzzer after a signal
 EXECUTED = re.compile(r"^stat::number_of_executed_units:\s*(\d+)", re.MULTILINE)
 
 
@@ -94,6 +95,8 @@ def call_target(command: list, log: Path, figure: str) -> bool:
     text = log.read_text(errors="replace")
     if executed := EXECUTED.search(text):
         print(f"figure: {figure} = {executed[1]} [1]", flush=True)
+    if code == INTERRUPTED:
+        raise KeyboardInterrupt
     if code != 0:
         print("\n".join(text.splitlines()[-60:]))
         print(f"the whole log is {shown(log)}")

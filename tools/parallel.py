@@ -13,10 +13,10 @@ import openfoam
 from case_folder import CaseDescription
 from console import UserError, shown
 from process import run_logged
-from restart import CHECKPOINT, RECORD, STEP, Restart
+from rank_parts import DICTIONARY, identity, keep, processors, take, usable
+from restart import RECORD, Restart
 
 MOST = 32  # max_ranks of gimdem/coupling/Types.hpp
-DICTIONARY = "system/decomposeParDict"
 # Debian's and Ubuntu's OpenFOAM has neither scotch nor metis.
 CUT = """FoamFile {{ version 2.0; format ascii; class dictionary; object decomposeParDict; }}
 method simple;
@@ -48,7 +48,8 @@ def check(ranks: int, client: str) -> None:
 
 
 def decompose(folder: Path, ranks: int, restart: Restart | None) -> str:
-    """Cut mesh and fields of a run, those that it begins with; returns one line about it."""
+    """Cut mesh and fields of a run, those that it begins with; returns one line about it. Where the run of before was
+    cut the same way, its ranks' own fields are taken: those that were put together have lost the last digits."""
     dictionary = folder / DICTIONARY
     how = f"as {DICTIONARY} says"
     if not dictionary.exists():
@@ -60,11 +61,13 @@ def decompose(folder: Path, ranks: int, restart: Restart | None) -> str:
     # Fields go through text twice, and a restart must find every digit.
     with (folder / "system" / "controlDict").open("a") as text:
         text.write("\nwritePrecision 17; // --ranks: the last entry counts\n")
-    if restart and restart.state:
-        time = restart.state.fluid.name
-        tool("decomposePar", ["-time", time, "-copyUniform"], folder)
+    if restart and restart.fluid and (parts := usable(restart, dictionary, ranks)):
+        take(parts, restart.fluid.name, folder)
+        return f"the {ranks} ranks go on from their own fields"
+    if restart and restart.fluid:
+        tool("decomposePar", ["-time", restart.fluid.name, "-copyUniform"], folder)
         for part in processors(folder):
-            list_files(part / time)
+            list_files(part / restart.fluid.name)
     else:
         tool("decomposePar", [], folder)
     return f"the mesh is cut for {ranks} ranks, {how}"
@@ -93,9 +96,9 @@ def cut(lengths: Sequence[float], ranks: int) -> tuple[int, int, int]:
     return min(ways, key=area)
 
 
-def reconstruct(folder: Path, keep: bool = False) -> str:
-    """Put the whole times of a run's ranks together, so that they are where one process would have written them, and
-    remove the parts; returns one line about it, empty if there is nothing."""
+def reconstruct(folder: Path, has_ended: bool = True) -> str:
+    """Put the whole times of a run's ranks together, so that they are where one process would have written them;
+    returns one line about it, empty if there is nothing. Of a run that has ended the parts are tidied away."""
     parts = processors(folder)
     if not parts:
         return ""
@@ -104,17 +107,15 @@ def reconstruct(folder: Path, keep: bool = False) -> str:
         tool("reconstructPar", ["-time", ",".join(times)], folder)
     for time in times:
         join_records([part / time for part in parts], folder / time)
-    if not keep:
-        for part in parts:
-            shutil.rmtree(part)
+    if has_ended:
+        keep(folder, parts)
     return f"{len(times)} times of {len(parts)} ranks put together"
 
 
 def join_records(parts: Sequence[Path], whole: Path) -> None:
     """Of a time that is put together: it belongs to a checkpoint if all its parts belong to the same."""
     records = [(part / RECORD).read_text() if (part / RECORD).is_file() else "" for part in parts]
-    told = {(STEP.search(record) or [""])[0] + (CHECKPOINT.search(record) or [""])[0] for record in records}
-    if len(told) == 1 and all(records):
+    if len(set(map(identity, records))) == 1 and all(records):
         list_files(whole)
     else:
         (whole / RECORD).unlink(missing_ok=True)
@@ -141,11 +142,7 @@ def reconstruct_before_restart(case: CaseDescription, wanted: str | None) -> Non
     else:
         folders = [Path(wanted).resolve().parents[1]] if Path(wanted).is_file() else []
     for folder in folders:
-        reconstruct(folder, keep=True)
-
-
-def processors(folder: Path) -> list[Path]:
-    return sorted(folder.glob("processor[0-9]*"), key=lambda part: int(part.name.removeprefix("processor")))
+        reconstruct(folder, has_ended=False)
 
 
 def whole_times(parts: Sequence[Path]) -> list[str]:

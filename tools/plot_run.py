@@ -18,7 +18,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import EllipseCollection
 
-from console import UserError
+from console import UserError, run_script
 from results import BedSeries, read_json
 from vtp import VtkFileError, read_particles, read_series
 
@@ -53,16 +53,7 @@ NOT_A_PLANE = ("pressure_drop", "void_fraction_min", "void_fraction_max", "void_
 
 
 def main(arguments: list[str]) -> int:
-    if len(arguments) != 1:
-        print(__doc__, file=sys.stderr)
-        return 2
-    try:
-        for file in plot_run(Path(arguments[0])):
-            print(file)
-    except UserError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return error.code
-    return 0
+    return run_script(__doc__, (1,), lambda run: plot_run(Path(run)), arguments)
 
 
 def plot_run(folder: Path) -> list[Path]:

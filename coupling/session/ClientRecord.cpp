@@ -16,7 +16,8 @@ using transport::on_clock;
 std::unique_ptr<EventLog> log_of_environment()
 {
     char const* const file = std::getenv(client_log_variable);
-    return file && *file ? std::make_unique<EventLog>(file, "client") : std::make_unique<EventLog>();
+    if (file && *file) return std::make_unique<EventLog>(file, "client");
+    return std::make_unique<EventLog>();
 }
 
 }  // namespace

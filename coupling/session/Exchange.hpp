@@ -22,7 +22,9 @@ public:
     virtual Mesh receive_mesh() = 0;
     virtual void accept_mesh(SolidFields const& initial, Timings const& timings, StepCells const& cells) = 0;
     virtual std::optional<FluidState> receive_fluid() = 0;
-    virtual void complete(FluidState& fluid) = 0;
+    /// complete() in two halves, so that all ranks can be asked before one is waited for.
+    virtual void ask_for_whole(FluidState const& fluid) = 0;
+    virtual void take_whole(FluidState& fluid) = 0;
     virtual void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells) = 0;
     virtual void wake_client() = 0;
     virtual void request_stop(std::string const& reason) = 0;
@@ -40,6 +42,8 @@ public:
     virtual void look_for_loss() = 0;
     /// A fault has ended it.
     virtual bool has_failed() const = 0;
+    /// Because the client is gone, silent or slow; it has not said why.
+    virtual bool has_lost_client() const = 0;
 };
 
 }  // namespace gimdem::coupling::session

@@ -25,10 +25,34 @@ void RankCells::check(SolidFields const& fields) const
 SolidFields RankCells::cut(SolidFields const& whole, std::size_t rank) const
 {
     SolidFields part;
+    if (first_cell_.empty()) return part;
     for (auto const& entry : wants_)
     {
         auto const first = static_cast<std::size_t>(first_cell_[rank]) * entry.components;
         part.*entry.values = {(whole.*entry.values).data() + first, count(rank) * entry.components};
+    }
+    return part;
+}
+
+StepCells RankCells::cut(StepCells const& whole, std::size_t rank) const
+{
+    StepCells part;
+    if (first_cell_.empty()) return part;
+    if (whole.solid) part.solid = cut(*whole.solid, rank);
+    for (NeededCells const& some : whole.needed)
+        part.needed.push_back({some.fields, cut(some.cells, rank)});
+    return part;
+}
+
+CellRuns RankCells::cut(CellRuns const& whole, std::size_t rank) const
+{
+    std::int32_t const begin = first_cell_[rank], end = first_cell_[rank + 1];
+    CellRuns part;
+    for (CellRun const& run : whole)
+    {
+        std::int32_t const first = std::max(run.first, begin);
+        std::int32_t const last = std::min(run.first + run.count, end);
+        if (first < last) part.push_back({first - begin, last - first});
     }
     return part;
 }

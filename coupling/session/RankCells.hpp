@@ -16,7 +16,7 @@ namespace gimdem::coupling::session
 class RankCells
 {
 public:
-    /// As it is made, without cells.
+    /// Before the meshes are known: all parts are empty.
     RankCells() = default;
     /// first_cell: shape=(ranks + 1,). wants: the solid fields of every rank.
     RankCells(std::vector<std::int32_t> first_cell, message::FieldChoice<SolidFields> wants);
@@ -25,11 +25,14 @@ public:
     void check(SolidFields const& fields) const;
     /// Rank's part of the fields that are wanted; the others are empty.
     SolidFields cut(SolidFields const& whole, std::size_t rank) const;
+    /// Rank's part of the cells that travel, by its own numbers.
+    StepCells cut(StepCells const& whole, std::size_t rank) const;
     /// Whole fields of the ranks' parts, in memory of this object until the next call.
     FluidFields join(std::vector<FluidFields> const& parts);
 
 private:
     std::size_t count(std::size_t rank) const;
+    CellRuns cut(CellRuns const& whole, std::size_t rank) const;
 
     std::vector<std::int32_t> first_cell_;
     message::FieldChoice<SolidFields> wants_;

@@ -45,33 +45,63 @@ std::optional<FluidState> Ranks::receive_fluid()
     return together(
         [&]() -> std::optional<FluidState>
         {
-            std::vector<FluidState> states;
-            for (std::size_t rank = 0; rank < parts_.size(); ++rank)
-            {
-                auto state = parts_[rank]->receive_fluid();
-                if (rank > 0 && state.has_value() == states.empty())
-                    fail(Fault::protocol, name_ + " is out of order: " + rank_text(state ? 0 : rank) +
-                                              " said goodbye, but " + rank_text(state ? rank : 0) +
-                                              " began a step (all ranks must take the same steps)");
-                if (state) states.push_back(*std::move(state));
-            }
-            if (states.empty()) return std::nullopt;
-            check_same_step(states);
+            fluids_ = receive_fluids();
+            if (fluids_.empty()) return std::nullopt;
+            check_same_step(fluids_);
 
-            FluidState whole = states.front();
-            for (FluidState const& state : states)
+            FluidState whole = fluids_.front();
+            for (FluidState const& fluid : fluids_)
             {
-                take_longest(whole.previous, state.previous);
-                whole.exchange = std::max(whole.exchange, state.exchange);
-                whole.waiting = std::max(whole.waiting, state.waiting);
+                take_longest(whole.previous, fluid.previous);
+                whole.exchange = std::max(whole.exchange, fluid.exchange);
+                whole.waiting = std::max(whole.waiting, fluid.waiting);
+                whole.is_complete &= fluid.is_complete;
             }
-            whole.fields = cells_.join(fields_of(states));
+            whole.fields = cells_.join(fields_of(fluids_));
             return whole;
         });
 }
 
-/// The fields of all cells travel to ranks.
-void Ranks::complete(FluidState&) {}
+/// One of each rank; none if all have said goodbye.
+std::vector<FluidState> Ranks::receive_fluids()
+{
+    std::vector<FluidState> fluids;
+    for (std::size_t rank = 0; rank < parts_.size(); ++rank)
+    {
+        auto fluid = parts_[rank]->receive_fluid();
+        if (rank > 0 && fluid.has_value() == fluids.empty())
+            fail(Fault::protocol, name_ + " is out of order: " + rank_text(fluid ? 0 : rank) + " said goodbye, but " +
+                                      rank_text(fluid ? rank : 0) +
+                                      " began a step (all ranks must take the same steps)");
+        if (fluid) fluids.push_back(*std::move(fluid));
+    }
+    return fluids;
+}
+
+/// Only ranks that left cells out are asked.
+void Ranks::ask_for_whole(FluidState const& fluid)
+{
+    if (fluid.is_complete) return;
+    together(
+        [&]
+        {
+            for (std::size_t rank = 0; rank < parts_.size(); ++rank)
+                parts_[rank]->ask_for_whole(fluids_[rank]);
+        });
+}
+
+void Ranks::take_whole(FluidState& fluid)
+{
+    if (fluid.is_complete) return;
+    together(
+        [&]
+        {
+            for (std::size_t rank = 0; rank < parts_.size(); ++rank)
+                parts_[rank]->take_whole(fluids_[rank]);
+        });
+    fluid.fields = cells_.join(fields_of(fluids_));
+    fluid.is_complete = true;
+}
 
 void Ranks::check_same_step(std::vector<FluidState> const& states)
 {
@@ -90,7 +120,7 @@ void Ranks::send_solid(SolidFields const& fields, Timings const& timings, StepCe
         [&]
         {
             for (std::size_t rank = 0; rank < parts_.size(); ++rank)
-                parts_[rank]->send_solid(cells_.cut(fields, rank), timings, cells);
+                parts_[rank]->send_solid(cells_.cut(fields, rank), timings, cells_.cut(cells, rank));
         });
 }
 

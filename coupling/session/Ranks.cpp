@@ -5,9 +5,32 @@
 #include <utility>
 
 #include "message/MeshMerge.hpp"
+#include "message/Message.hpp"
 
 namespace gimdem::coupling::session
 {
+namespace
+{
+
+std::string start_of(ClientInfo const& client)
+{
+    if (!client.resume) return "begins a run";
+    return "goes on from step " + std::to_string(client.resume->step) + " of session " +
+           std::to_string(client.resume->session) + " at " + message::number_text(client.resume->time) + " s";
+}
+
+/// Between the Hello of a rank and that of rank 0, and what to do; empty if there is none.
+std::optional<std::string> find_difference(ClientInfo const& other, ClientInfo const& first)
+{
+    bool const is_same = other.name == first.name && other.fluid.density == first.fluid.density &&
+                         other.fluid.viscosity == first.fluid.viscosity && other.wants == first.wants &&
+                         other.schedule == first.schedule;
+    if (!is_same) return "(name, fluid, fields or schedule); the ranks must solve one case";
+    if (other.resume == first.resume) return std::nullopt;
+    return "(it " + start_of(other) + ", rank 0 " + start_of(first) + "); start all ranks from one checkpoint";
+}
+
+}  // namespace
 
 std::string rank_text(std::size_t rank)
 {
@@ -35,6 +58,15 @@ std::vector<std::string> Ranks::endpoints() const
     return names;
 }
 
+/// Where a rank's session has ended, those of the others end too.
+void Ranks::end_all(std::string const& reason) noexcept
+{
+    if (!has_failed()) return;
+    has_lost_client_ =
+        std::any_of(parts_.begin(), parts_.end(), [](Exchange const* part) { return part->has_lost_client(); });
+    abort(Fault::peer, reason);
+}
+
 void Ranks::fail(Fault fault, std::string const& text)
 {
     abort(fault, text);
@@ -51,13 +83,9 @@ void Ranks::wait_for_others(ClientInfo const& first, ServerTerms const& terms)
             for (std::size_t rank = 1; rank < parts_.size(); ++rank)
             {
                 ClientInfo const info = parts_[rank]->wait_for_client(terms);
-                bool const same = info.name == first.name && info.fluid.density == first.fluid.density &&
-                                  info.fluid.viscosity == first.fluid.viscosity && info.wants == first.wants &&
-                                  info.schedule == first.schedule;
-                if (!same)
+                if (auto const difference = find_difference(info, first))
                     fail(Fault::protocol, "the Hello of " + rank_text(rank) + " of " + name_ +
-                                              " differs from that of rank 0 (name, fluid, fields or schedule); the "
-                                              "ranks must solve one case");
+                                              " differs from that of rank 0 " + *difference);
             }
         });
 }
@@ -91,7 +119,7 @@ void Ranks::accept_mesh(SolidFields const& initial, Timings const& timings, Step
         [&]
         {
             for (std::size_t rank = 0; rank < parts_.size(); ++rank)
-                parts_[rank]->accept_mesh(cells_.cut(initial, rank), timings, cells);
+                parts_[rank]->accept_mesh(cells_.cut(initial, rank), timings, cells_.cut(cells, rank));
         });
 }
 

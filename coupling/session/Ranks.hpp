@@ -26,7 +26,7 @@ std::string endpoint_of_rank(std::string const& endpoint, std::int32_t rank);
 
 /// Every rank has a session of its own, with its own socket, heartbeats and shared memory. Here their meshes are
 /// merged, their fields put one after the other, and their steps compared; what ends one of them ends all.
-class Ranks : public Exchange
+class Ranks final : public Exchange
 {
 public:
     using Parts = std::vector<std::unique_ptr<Exchange>>;
@@ -44,7 +44,8 @@ public:
     Mesh receive_mesh() override;
     void accept_mesh(SolidFields const& initial, Timings const& timings, StepCells const& cells) override;
     std::optional<FluidState> receive_fluid() override;
-    void complete(FluidState& fluid) override;
+    void ask_for_whole(FluidState const& fluid) override;
+    void take_whole(FluidState& fluid) override;
     void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells) override;
     void wake_client() override;
     void request_stop(std::string const& reason) override;
@@ -56,12 +57,15 @@ public:
     void set_watch(std::function<void()> watch) override;
     void look_for_loss() override;
     bool has_failed() const override;
+    bool has_lost_client() const override { return has_lost_client_; }
 
 private:
     /// Runs a call; if one rank's session ends in it, so do the others, with the same reason.
     template <class Body>
     auto together(Body body) -> decltype(body());
+    void end_all(std::string const& reason) noexcept;
     [[noreturn]] void fail(Fault fault, std::string const& text);
+    std::vector<FluidState> receive_fluids();
     void check_same_step(std::vector<FluidState> const& states);
     void forward_stop();
 
@@ -69,8 +73,10 @@ private:
     Parts others_;
     std::string name_;  ///< of the client
     message::FieldChoice<SolidFields> wants_;
-    RankCells cells_;        ///< holds what the spans of the last FluidState show
-    std::mutex stop_mutex_;  ///< request_stop() may come from another thread
+    RankCells cells_;                 ///< holds what the spans of the last FluidState show
+    std::vector<FluidState> fluids_;  ///< by rank, of the last step
+    bool has_lost_client_ = false;    ///< the rank whose session ended first was lost
+    std::mutex stop_mutex_;           ///< request_stop() may come from another thread
     std::optional<std::string> stop_;
 };
 
@@ -83,7 +89,7 @@ auto Ranks::together(Body body) -> decltype(body())
     }
     catch (CouplingError const& error)
     {
-        if (has_failed()) abort(Fault::peer, error.what());
+        end_all(error.what());
         throw;
     }
 }

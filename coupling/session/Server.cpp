@@ -124,7 +124,12 @@ std::string const& Server::goodbye_reason() const
 
 void Server::complete(FluidState& fluid)
 {
-    impl_->guard([&] { impl_->whole().complete(fluid); });
+    impl_->guard(
+        [&]
+        {
+            impl_->whole().ask_for_whole(fluid);
+            impl_->whole().take_whole(fluid);
+        });
 }
 
 void Server::wake_client()
@@ -139,7 +144,7 @@ void Server::send_solid(SolidFields const& fields, Timings const& timings, StepC
 
 bool Server::has_lost_client() const
 {
-    return !impl_->ranks && impl_->first.session().has_lost_peer();
+    return impl_->whole().has_lost_client();
 }
 
 std::uint64_t Server::session_number() const

@@ -26,10 +26,10 @@ Newcomer ServerSession::await_hello(ServerTerms const& offered)
 ClientInfo ServerSession::welcome(Newcomer const& newcomer, ServerTerms const& offered,
                                   std::vector<std::string> const& rank_endpoints)
 {
-    auto const& [letter, hello] = newcomer;
+    Letter const& letter = newcomer.letter;
+    message::Hello const& hello = newcomer.hello;
     session_.choose_session_number();
     terms_.encodings = both(options_.encodings, hello.encodings);
-    if (hello.rank.count > 1) terms_.encodings.sparse = false;  // needs are told by the cells of one process
     terms_.solid = message::choose_solid_fields(hello.wants, Fault::protocol);
     Schedule const schedule = choose_schedule(hello, offered);
 

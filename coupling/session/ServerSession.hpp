@@ -44,7 +44,8 @@ public:
     Mesh receive_mesh() override;
     void accept_mesh(SolidFields const& initial, Timings const& timings, StepCells const& cells) override;
     std::optional<FluidState> receive_fluid() override;
-    void complete(FluidState& fluid) override;
+    void ask_for_whole(FluidState const& fluid) override;
+    void take_whole(FluidState& fluid) override;
     void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells) override;
     void wake_client() override;
     void request_stop(std::string const& reason) override;
@@ -55,6 +56,7 @@ public:
     void set_watch(std::function<void()> watch) override { session_.set_watch(std::move(watch)); }
     void look_for_loss() override { session_.look_for_loss("all ranks"); }
     bool has_failed() const override { return session_.state() == State::failed; }
+    bool has_lost_client() const override { return session_.has_lost_peer(); }
 
     void save_checkpoints_by(Server::CheckpointSaver saver) { saver_ = std::move(saver); }
     ServerOptions const& options() const { return options_; }

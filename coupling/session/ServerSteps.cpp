@@ -40,12 +40,17 @@ std::optional<FluidState> ServerSession::receive_fluid()
     return fluid;
 }
 
-void ServerSession::complete(FluidState& fluid)
+void ServerSession::ask_for_whole(FluidState const& fluid)
 {
     if (fluid.is_complete) return;
     session_.require(Event::complete);
     session_.advance(Event::complete);
     session_.send(message::pack_fluid_wanted());
+}
+
+void ServerSession::take_whole(FluidState& fluid)
+{
+    if (fluid.is_complete) return;
     Letter letter = receive("the whole FluidState");
     session_.read([&] { shared_.attach(letter.message); });
     FluidState whole = session_.read([&] { return message::unpack_fluid_state(letter.message, terms_); });

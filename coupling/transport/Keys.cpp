@@ -68,7 +68,7 @@ std::string read_key(fs::path const& file, std::string const& name)
 KeyPair read_pair(fs::path const& file)
 {
     check_mode(file, true);
-    KeyPair const pair{read_key(file, "public"), read_key(file, "secret")};
+    KeyPair pair{read_key(file, "public"), read_key(file, "secret")};
     std::array<char, key_length + 1> derived{};
     if (zmq_curve_public(derived.data(), pair.secret_key.c_str()) != 0 || pair.public_key != derived.data())
         refuse(file, "has a public key that does not belong to its secret key; make the keys anew");

@@ -22,9 +22,6 @@
 namespace gimdem::app
 {
 
-/// What the case file fixes and the client is told.
-coupling::ServerTerms terms_of(Case const& settings);
-
 class CoupledRun
 {
 public:

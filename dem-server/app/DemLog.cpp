@@ -84,21 +84,8 @@ void DemLog::write_row(RunPoint const& point)
 
 void DemLog::write_frame(double time)
 {
-    ParticleState const& particles = system_.particles();
-    auto const position = triples(particles.position);
-    auto const velocity = triples(particles.velocity);
-    auto const angular_velocity = triples(particles.angular_velocity);
-    std::vector<double> radius;
-    for (Quad const& x : particles.position.host())
-        radius.push_back(x.w);
-    frames_.write(time,
-                  {.time = time,
-                   .position = position,
-                   .radius = radius,
-                   .velocity = velocity,
-                   .angular_velocity = angular_velocity,
-                   .id = particles.id.host()},
-                  {});
+    with_particle_frame(system_.particles(), time,
+                        [&](output::ParticleFrame const& frame) { frames_.write(time, frame, {}); });
 }
 
 void DemLog::finish(RunPoint const& point)

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace gimdem::app
 {
 
-double seconds_since(std::chrono::steady_clock::time_point start)
+namespace
 {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
+/// xyz of quads as n * 3 doubles.
 std::vector<double> triples(exec::Buffer<Quad> const& quads)
 {
     std::vector<double> out;
@@ -19,6 +19,30 @@ std::vector<double> triples(exec::Buffer<Quad> const& quads)
     for (Quad const& q : quads.host())
         out.insert(out.end(), {q.x, q.y, q.z});
     return out;
+}
+
+}  // namespace
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void with_particle_frame(ParticleState const& particles, double time,
+                         std::function<void(output::ParticleFrame const&)> const& write)
+{
+    auto const position = triples(particles.position);
+    auto const velocity = triples(particles.velocity);
+    auto const angular_velocity = triples(particles.angular_velocity);
+    std::vector<double> radius;
+    for (Quad const& x : particles.position.host())
+        radius.push_back(x.w);
+    write({.time = time,
+           .position = position,
+           .radius = radius,
+           .velocity = velocity,
+           .angular_velocity = angular_velocity,
+           .id = particles.id.host()});
 }
 
 Removed total_removed(DemSystem const& system)

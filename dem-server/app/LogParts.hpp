@@ -3,12 +3,13 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
-#include <vector>
 
 #include "engine/DemSystem.hpp"
 #include "gimdem/coupling/Server.hpp"
 #include "output/Summary.hpp"
+#include "output/VtkParticles.hpp"
 
 namespace gimdem::app
 {
@@ -16,8 +17,9 @@ namespace gimdem::app
 /// Wall time since then [s].
 double seconds_since(std::chrono::steady_clock::time_point start);
 
-/// xyz of quads as n * 3 doubles.
-std::vector<double> triples(exec::Buffer<Quad> const& quads);
+/// Calls write(frame) with all particles as a ParaView file shows them at `time` [s].
+void with_particle_frame(ParticleState const& particles, double time,
+                         std::function<void(output::ParticleFrame const&)> const& write);
 
 /// All particles that left, whatever the cause.
 Removed total_removed(DemSystem const& system);

@@ -9,6 +9,7 @@
 
 #include "app/CoupledRun.hpp"
 #include "app/LogParts.hpp"
+#include "app/Terms.hpp"
 #include "core/Error.hpp"
 
 namespace gimdem::app

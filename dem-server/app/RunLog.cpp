@@ -92,19 +92,6 @@ void RunLog::accept()
 
 void RunLog::write_frame(coupling::FluidState const& fluid, CoupledEngine const& engine)
 {
-    ParticleState const& particles = system_.particles();
-    auto const position = triples(particles.position);
-    auto const velocity = triples(particles.velocity);
-    auto const angular_velocity = triples(particles.angular_velocity);
-    std::vector<double> radius;
-    for (Quad const& x : particles.position.host())
-        radius.push_back(x.w);
-    output::ParticleFrame const frame{.time = fluid.step.time,
-                                      .position = position,
-                                      .radius = radius,
-                                      .velocity = velocity,
-                                      .angular_velocity = angular_velocity,
-                                      .id = particles.id.host()};
     auto const solid = engine.fields();
     std::vector<output::CellField> fields{{"void_fraction", 1, as_span(solid.void_fraction)},
                                           {"momentum_source", 3, as_span(solid.momentum_source)}};
@@ -116,7 +103,8 @@ void RunLog::write_frame(coupling::FluidState const& fluid, CoupledEngine const&
     add("pressure", 1, fluid.fields.pressure);
     add("pressure_gradient", 3, fluid.fields.pressure_gradient);
     add("void_fraction_gradient", 3, fluid.fields.void_fraction_gradient);
-    frames_.write(fluid.step.time, frame, fields);
+    with_particle_frame(system_.particles(), fluid.step.time,
+                        [&](output::ParticleFrame const& frame) { frames_.write(fluid.step.time, frame, fields); });
     ++frame_count_;
 }
 

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/Error.hpp"
 #include "exec/ForEach.hpp"
+#include "mapping/PermuteWithNew.hpp"
 #include "mapping/SureCell.hpp"
 #include "mesh/NearbyCells.hpp"
+#include "mesh/ReverseSlots.hpp"
 #include "mesh/SpatialOrder.hpp"
 
 namespace gimdem
@@ -28,23 +28,8 @@ Mapper::Mapper(exec::Execution execution, PolyMesh const& mesh, MappingSettings 
       cell_grid_(cell_boxes(mesh)),
       cell_order_(spatial_order(mesh))
 {
-    find_reverse_slots();
+    reverse_slot_ = reverse_slots(method_->candidates());
     if (settings.reuse_distance > 0) reuse_.emplace(settings.reuse_distance);
-}
-
-void Mapper::find_reverse_slots()
-{
-    CellRows const& layers = method_->candidates();
-    reverse_slot_.resize(layers.cells.size());
-    for (std::int32_t c = 0; c < mesh_.cell_count(); ++c)
-        for (std::int32_t k = layers.offsets[c]; k < layers.offsets[c + 1]; ++k)
-        {
-            std::int32_t const other = layers.cells[k];
-            std::int32_t slot = 0;
-            while (layers.cells[layers.offsets[other] + slot] != c)
-                ++slot;
-            reverse_slot_[k] = slot;
-        }
 }
 
 void Mapper::locate(ParticleState const& particles, exec::Buffer<std::uint8_t> const& wall_faces)
@@ -94,7 +79,7 @@ WeightRows Mapper::rows() const
 bool Mapper::prepare(ParticleState const& particles)
 {
     if (!method_->prepare(particles)) return false;
-    find_reverse_slots();
+    reverse_slot_ = reverse_slots(method_->candidates());
     return true;
 }
 
@@ -124,17 +109,10 @@ void Mapper::sum_into_cells(ParticleState const& particles, exec::Buffer<Impulse
 void Mapper::permute(std::span<std::int32_t const> order)
 {
     if (reuse_) reuse_->permute(order);
-    std::int64_t const before = cell_of_.size(), after = std::ssize(order);
+    std::int64_t const before = cell_of_.size();
     if (before == 0) return;
-    auto const take = [&](auto& values, auto const& of_new)
-    {
-        values.resize(std::max(before, after));
-        std::fill(values.host().begin() + before, values.host().end(), of_new);
-        gimdem::permute(values, order);
-        values.resize(after);
-    };
-    take(cell_of_, -1);  // new ones are to be located from scratch
-    if (sure_.size() == before) take(sure_, nowhere);
+    permute_with_new(cell_of_, order, -1);  // new ones are to be located from scratch
+    if (sure_.size() == before) permute_with_new(sure_, order, nowhere);
 }
 
 }  // namespace gimdem

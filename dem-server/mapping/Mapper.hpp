@@ -81,7 +81,6 @@ public:
     exec::Buffer<std::int32_t> const& reverse_slot() const { return reverse_slot_; }
 
 private:
-    void find_reverse_slots();
     WeightRows rows() const;
 
     exec::Execution execution_;

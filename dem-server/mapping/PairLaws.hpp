@@ -42,10 +42,9 @@ struct ClosedFormIntegral1
         double const log_radius = std::log(particle.w);
         CellSize const& size = sizes.of_cell[c];
         double const tuned = 0.579 * std::exp(3 * 0.132 * log_radius) * size.tuning;
-        ParticleAndCell<double> const pair{particle.w, size.radius / particle.w, size.log_radius - log_radius,
-                                           sizes.fixed_coefficient > 0 ? sizes.fixed_coefficient : tuned};
-        auto const tails = pair((particle.xyz() - cell[c].xyz()).norm());
-        return tails.sum(std::erfc(tails.x[0]), std::erfc(tails.x[1]), std::erfc(tails.x[2]), std::erfc(tails.x[3]));
+        ParticleAndCell const pair{particle.w, size.radius / particle.w, size.log_radius - log_radius,
+                                   sizes.fixed_coefficient > 0 ? sizes.fixed_coefficient : tuned};
+        return pair((particle.xyz() - cell[c].xyz()).norm()).sum();
     }
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "exec/ForEach.hpp"
+#include "mapping/PermuteWithNew.hpp"
 
 namespace gimdem
 {
@@ -73,18 +74,10 @@ void WeightReuse::restore(WeightReference reference)
 
 void WeightReuse::permute(std::span<std::int32_t const> order)
 {
-    std::int64_t const before = row_.size(), after = std::ssize(order);
-    if (before == 0) return;
-    auto const take = [&](auto& values, auto const& of_new)
-    {
-        values.resize(std::max(before, after));
-        std::fill(values.host().begin() + before, values.host().end(), of_new);
-        gimdem::permute(values, order);
-        values.resize(after);
-    };
-    take(reference_.particles.position, Quad{0, 0, 0, 0});
-    take(reference_.cell, -1);
-    take(row_, std::int64_t{-1});
+    if (row_.size() == 0) return;
+    permute_with_new(reference_.particles.position, order, Quad{0, 0, 0, 0});
+    permute_with_new(reference_.cell, order, -1);
+    permute_with_new(row_, order, std::int64_t{-1});
 }
 
 void WeightReuse::fill(exec::Execution const& execution, Method& method, ParticleState const& particles,

@@ -30,11 +30,10 @@ Frames copy_of(Frames const& frames)
 
 bool is_right_heartbeat(Frames const& frames)
 {
+    if (coupling::message::peek_kind(frames.front()) != coupling::message::Kind::kHeartbeat) return false;
     try
     {
-        auto const message = coupling::message::decode(copy_of(frames));
-        if (message.kind() != coupling::message::Kind::kHeartbeat) return false;
-        coupling::message::unpack_heartbeat(message);
+        coupling::message::unpack_heartbeat(coupling::message::decode(copy_of(frames)));
         return true;
     }
     catch (CouplingError const&)

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "exec/Reduce.hpp"
 #include "mapping/PotentialShare.hpp"
 
 namespace gimdem
@@ -82,35 +81,22 @@ private:
 }  // namespace
 
 PowerDiagram::PowerDiagram(exec::Execution const& execution, PolyMesh const& mesh)
-    : execution_(execution), mesh_(mesh), potentials_(fit_potentials(mesh)), boxes_(cell_boxes(mesh))
+    : ReachingMethod(execution, mesh, 2), mesh_(mesh), potentials_(fit_potentials(mesh))
 {
-    // Before there are particles the rows are those of points.
-    candidates_ = nearby_cells(boxes_, 0);
-}
-
-bool PowerDiagram::prepare(ParticleState const& particles)
-{
-    Quad const* const position = particles.position.view().data;
-    double const largest =
-        exec::maximum(execution_, particles.count(), 0.0, [=](std::int64_t p) { return position[p].w; });
-    if (largest <= largest_) return false;
-    largest_ = largest;
-    find_candidates();
-    return true;
 }
 
 // Of the cells within two radii those that may receive something, from either side.
-void PowerDiagram::find_candidates()
+CellRows PowerDiagram::find_candidates(double largest) const
 {
-    CellRows const nearby = nearby_cells(boxes_, 2 * largest_);
+    CellRows const nearby = within(2 * largest);
     std::int32_t const cells = mesh_.cell_count();
     std::vector<std::uint8_t> gives(static_cast<std::size_t>(nearby.cells.size()));
     std::uint8_t* const may = gives.data();
-    exec::for_each_uneven(execution_, cells,
+    exec::for_each_uneven(execution(), cells,
                           [&](std::int64_t c)
                           {
                               auto const cell = static_cast<std::int32_t>(c);
-                              MayGive const may_give(mesh_, cell, largest_);
+                              MayGive const may_give(mesh_, cell, largest);
                               for (std::int32_t k = nearby.offsets[c]; k < nearby.offsets[c + 1]; ++k)
                                   may[k] = may_give(potentials_[c], potentials_[nearby.cells[k]]);
                           });
@@ -122,17 +108,19 @@ void PowerDiagram::find_candidates()
         return may[nearby.offsets[from] + 1 + (std::ranges::lower_bound(row, to) - row.begin())] != 0;
     };
     std::vector<std::int32_t> kept;
-    candidates_.offsets.resize(cells + 1);
+    CellRows candidates;
+    candidates.offsets.resize(cells + 1);
     for (std::int32_t c = 0; c < cells; ++c)
     {
-        candidates_.offsets[c] = static_cast<std::int32_t>(kept.size());
+        candidates.offsets[c] = static_cast<std::int32_t>(kept.size());
         for (std::int32_t k = nearby.offsets[c]; k < nearby.offsets[c + 1]; ++k)
             if (std::int32_t const other = nearby.cells[k]; other == c || may[k] || gives_back(other, c))
                 kept.push_back(other);
     }
-    candidates_.offsets[cells] = static_cast<std::int32_t>(kept.size());
-    candidates_.cells.resize(static_cast<std::int64_t>(kept.size()));
-    std::ranges::copy(kept, candidates_.cells.host().begin());
+    candidates.offsets[cells] = static_cast<std::int32_t>(kept.size());
+    candidates.cells.resize(static_cast<std::int64_t>(kept.size()));
+    std::ranges::copy(kept, candidates.cells.host().begin());
+    return candidates;
 }
 
 void PowerDiagram::compute_weights(WeightTask const& task)

@@ -4,31 +4,24 @@
 #pragma once
 
 #include "mapping/CellPotentials.hpp"
-#include "mapping/Method.hpp"
-#include "mesh/NearbyCells.hpp"
+#include "mapping/methods/ReachingMethod.hpp"
 
 namespace gimdem
 {
 
-class PowerDiagram : public Method
+class PowerDiagram : public ReachingMethod
 {
 public:
     PowerDiagram(exec::Execution const& execution, PolyMesh const& mesh);
 
-    CellRows const& candidates() const override { return candidates_; }
     exec::Buffer<CellPotential> const& potentials() const { return potentials_; }
-    bool prepare(ParticleState const& particles) override;
     void compute_weights(WeightTask const& task) override;
 
 private:
-    void find_candidates();
+    CellRows find_candidates(double largest) const override;
 
-    exec::Execution execution_;
     PolyMesh const& mesh_;
     exec::Buffer<CellPotential> potentials_;
-    exec::Buffer<CellBox> boxes_;
-    double largest_ = 0;  ///< radius that the candidates are made for [m]
-    CellRows candidates_;
 };
 
 }  // namespace gimdem

@@ -31,10 +31,19 @@ public:
             exec::maximum(execution_, particles.count(), 0.0, [=](std::int64_t p) { return position[p].w; });
         if (largest <= largest_) return false;
         largest_ = largest;
-        // A thousandth more: a particle may be a rounding outside of its cell.
-        candidates_ = nearby_cells(boxes_, 1.001 * radii_ * largest);
+        candidates_ = find_candidates(largest);
         return true;
     }
+
+protected:
+    /// Cells that particles of a radius up to `largest` [m] may give to.
+    virtual CellRows find_candidates(double largest) const
+    {
+        // A thousandth more: a particle may be a rounding outside of its cell.
+        return within(1.001 * radii_ * largest);
+    }
+    CellRows within(double reach) const { return nearby_cells(boxes_, reach); }  ///< reach in [m]
+    exec::Execution const& execution() const { return execution_; }
 
 private:
     exec::Execution execution_;

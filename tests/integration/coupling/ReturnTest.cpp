@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <iterator>
 #include <regex>
 
 #include "Figure.hpp"
+#include "ReturnScene.hpp"
+#include "ScriptedMesh.hpp"
 #include "ServerProcess.hpp"
 #include "UniformFluid.hpp"
 
@@ -17,25 +18,10 @@ namespace
 
 using namespace coupling;
 
-double constexpr dt = 1e-4;                                       ///< [s]
-int constexpr last = 60;                                          ///< step
-Mesh const mesh = BoxMesh::make({8, 8, 16}, {0.06, 0.06, 0.12});  ///< that of the scripted client
+double constexpr dt = return_dt;
+int constexpr last = return_steps;
+Mesh const mesh = scripted_mesh();
 UniformFluid const fluid(static_cast<std::size_t>(mesh.cell_count), {0, 0, 1});
-
-std::string bytes_of(std::filesystem::path const& file)
-{
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-SmallCase with_grace(std::string const& seconds, double timeout = patient)
-{
-    SmallCase settings;
-    settings.timeout = timeout;
-    settings.more = "sample_interval = 5e-4\n";
-    settings.arguments = {"--grace-time", seconds};
-    return settings;
-}
 
 /// A client that goes on, or begins.
 Client connect_once(std::string const& endpoint, std::optional<ResumePoint> const& resume)

@@ -6,8 +6,12 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
+#include <future>
 #include <map>
 
+#include "MeshParts.hpp"
+#include "ScriptedMesh.hpp"
 #include "ServerProcess.hpp"
 
 namespace gimdem::test
@@ -100,28 +104,110 @@ std::string contents(std::filesystem::path const& file)
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-Outcome run(std::string const& transport, TallCase const& settings, bool sparse)
+/// Rows of a field, of those cells.
+std::vector<double> rows(Span<double const> whole, std::vector<std::int32_t> const& of, std::size_t components)
 {
-    ServerProcess server(endpoint_over(transport), settings.text());
-    ClientOptions options = client_options(server.endpoint());
-    options.encodings.sparse = sparse;
-    Client client(options);
-    Outcome outcome;
-    EXPECT_EQ(client.connect(water).encodings.sparse, sparse);
-    client.send_mesh(view_of(tall_mesh()));
-    double const before = client.exchange_times().bytes;
-    for (int n = 1; n <= steps; ++n)
+    std::vector<double> some;
+    for (std::int32_t const c : of)
+        for (std::size_t k = 0; k < components; ++k)
+            some.push_back(whole[static_cast<std::size_t>(c) * components + k]);
+    return some;
+}
+
+/// A client of some ranks; each has slabs of the mesh, three cells high, so that the beads pass from rank to rank.
+class Ranks
+{
+public:
+    Ranks(std::string const& endpoint, int ranks, bool sparse)
+        : pieces_(cut(tall_mesh(), dealt(static_cast<std::int32_t>(cells), ranks, 3 * 6 * 6)))
+    {
+        std::vector<std::string> endpoints{endpoint};
+        clients_.reserve(pieces_.parts.size());
+        for (int rank = 0; rank < ranks; ++rank)
+        {
+            ClientOptions options = client_options(endpoints[static_cast<std::size_t>(rank)]);
+            options.encodings.sparse = sparse;
+            if (ranks > 1) options.rank = {rank, ranks, run_number};
+            Client& client = clients_.emplace_back(options);
+            Welcome const& welcome = client.connect(water);
+            EXPECT_EQ(welcome.encodings.sparse, sparse);
+            endpoints.insert(endpoints.end(), welcome.rank_endpoints.begin(), welcome.rank_endpoints.end());
+        }
+        on_all([&](std::size_t rank) { clients_[rank].send_mesh(view_of(pieces_.parts[rank])); });
+    }
+
+    double bytes() const
+    {
+        double sum = 0;
+        for (Client const& client : clients_)
+            sum += client.exchange_times().bytes;
+        return sum;
+    }
+
+    /// Returns all numbers of the solid.
+    std::vector<double> take_step(int n)
     {
         WildFluid const fluid(n);
-        client.begin_step({n, dt * (n - 1), dt}, fluid.view(), {{"courant_max", 0.1, "1"}});
-        client.end_step();
-        SolidFields const& solid = client.solid();
-        for (auto const& field :
-             {solid.void_fraction, solid.momentum_source, solid.drag_coefficient, solid.drag_momentum})
-            outcome.solids.insert(outcome.solids.end(), field.begin(), field.end());
+        on_all(
+            [&](std::size_t rank)
+            {
+                FluidFields const whole = fluid.view();
+                std::vector<std::int32_t> const& own = pieces_.cells[rank];
+                std::vector<double> const velocity = rows(whole.velocity, own, 3),
+                                          velocity_gradient = rows(whole.velocity_gradient, own, 9),
+                                          pressure_gradient = rows(whole.pressure_gradient, own, 3),
+                                          void_fraction_gradient = rows(whole.void_fraction_gradient, own, 3),
+                                          pressure = rows(whole.pressure, own, 1);
+                clients_[rank].begin_step(
+                    {n, dt * (n - 1), dt},
+                    {velocity, velocity_gradient, pressure_gradient, void_fraction_gradient, pressure},
+                    {{"courant_max", 0.1, "1"}});
+                clients_[rank].end_step();
+            });
+        std::vector<double> numbers;
+        for (Client const& client : clients_)
+        {
+            SolidFields const& solid = client.solid();
+            for (auto const& field :
+                 {solid.void_fraction, solid.momentum_source, solid.drag_coefficient, solid.drag_momentum})
+                numbers.insert(numbers.end(), field.begin(), field.end());
+        }
+        return numbers;
     }
-    outcome.bytes = client.exchange_times().bytes - before;
-    client.finish("all steps done");
+
+    void finish()
+    {
+        on_all([&](std::size_t rank) { clients_[rank].finish("all steps done"); });
+    }
+
+private:
+    void on_all(std::function<void(std::size_t)> const& body)
+    {
+        std::vector<std::future<void>> others;
+        for (std::size_t rank = 1; rank < clients_.size(); ++rank)
+            others.push_back(std::async(std::launch::async, [&body, rank] { body(rank); }));
+        body(0);
+        for (auto& other : others)
+            other.get();
+    }
+
+    MeshParts pieces_;
+    std::vector<Client> clients_;
+};
+
+Outcome run(std::string const& transport, TallCase const& settings, int ranks, bool sparse)
+{
+    ServerProcess server(endpoint_over(transport), settings.text());
+    Ranks client(server.endpoint(), ranks, sparse);
+    Outcome outcome;
+    double const before = client.bytes();
+    for (int n = 1; n <= steps; ++n)
+    {
+        std::vector<double> const solid = client.take_step(n);
+        outcome.solids.insert(outcome.solids.end(), solid.begin(), solid.end());
+    }
+    outcome.bytes = client.bytes() - before;
+    client.finish();
     server.expect_end(0, "figure: momentum_imbalance");
     outcome.output = server.process().output();
     for (auto const& entry : std::filesystem::recursive_directory_iterator(server.result("")))
@@ -146,6 +232,7 @@ struct Way
 {
     std::string transport, schedule;
     bool with_inlet;
+    int ranks = 1;
 };
 
 class Sparse : public testing::TestWithParam<Way>
@@ -155,8 +242,8 @@ class Sparse : public testing::TestWithParam<Way>
 TEST_P(Sparse, RunIsTheRunWithAllCells)
 {
     TallCase const settings(GetParam().schedule, GetParam().with_inlet);
-    Outcome const all = run(GetParam().transport, settings, false);
-    Outcome const some = run(GetParam().transport, settings, true);
+    Outcome const all = run(GetParam().transport, settings, GetParam().ranks, false);
+    Outcome const some = run(GetParam().transport, settings, GetParam().ranks, true);
 
     ASSERT_EQ(all.solids.size(), steps * 8 * cells);
     EXPECT_EQ(std::memcmp(all.solids.data(), some.solids.data(), all.solids.size() * sizeof(double)), 0);
@@ -177,10 +264,13 @@ TEST_P(Sparse, RunIsTheRunWithAllCells)
 
 INSTANTIATE_TEST_SUITE_P(Ways, Sparse,
                          testing::Values(Way{"ipc", "serial", false}, Way{"ipc", "overlapped", false},
-                                         Way{"tcp", "serial", true}, Way{"ipc", "overlapped", true}),
-                         [](auto const& way) {
+                                         Way{"tcp", "serial", true}, Way{"ipc", "overlapped", true},
+                                         Way{"ipc", "serial", false, 2}, Way{"tcp", "overlapped", false, 3}),
+                         [](auto const& way)
+                         {
                              return way.param.transport + "_" + way.param.schedule +
-                                    (way.param.with_inlet ? "_with_inlet" : "");
+                                    (way.param.with_inlet ? "_with_inlet" : "") +
+                                    (way.param.ranks > 1 ? "_of_several_ranks" : "");
                          });
 
 }  // namespace

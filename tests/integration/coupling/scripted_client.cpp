@@ -1,32 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// A client in a process of its own, to be killed and stopped.
+/// A client in a process of its own, to be killed and stopped; or one rank of several.
 ///
-/// Usage: scripted_client <endpoint> <time-out [s]> <steps> [<folder of keys, or ""> [<steps between checkpoints>]]
+/// Usage: scripted_client <endpoint> <time-out [s]> <steps> [<folder of keys, or ""> [<steps between checkpoints>
+///                        [<rank> <ranks>]]]
 /// Exit codes: 0 orderly end, 1 a fault, whose text goes to standard error, 2 wrong usage.
 #include <cstdlib>
 #include <iostream>
 #include <string>
 
-#include "BoxMesh.hpp"
+#include "ScriptedMesh.hpp"
 #include "UniformFluid.hpp"
 #include "gimdem/coupling/Client.hpp"
 
 namespace
 {
 
-void run(std::string const& endpoint, double timeout, int steps, std::string const& keys, int steps_between_checkpoints)
+using namespace gimdem;
+
+void run(std::string const& endpoint, double timeout, int steps, std::string const& keys, int steps_between_checkpoints,
+         coupling::Rank const& rank)
 {
-    using namespace gimdem;
     double constexpr dt = 1e-4;  // [s]
     coupling::ClientOptions options;
     options.endpoint = endpoint;
     options.name = "scripted client";
     options.timeout = timeout;
     options.keys = keys;
+    options.rank = rank;
     coupling::Client client(options);
-    client.connect(test::air);
-    // 1024 cells: vector fields are large enough for shared memory.
-    coupling::Mesh const mesh = test::BoxMesh::make({8, 8, 16}, {0.06, 0.06, 0.12});
+    for (std::string const& next : client.connect(test::air).rank_endpoints)
+        std::cout << "the next rank at " << next << std::endl;
+    coupling::Mesh const mesh = test::part_of_scripted_mesh(rank);
     client.send_mesh(test::view_of(mesh));
 
     test::UniformFluid const fluid(static_cast<std::size_t>(mesh.cell_count), {0, 0, 1});
@@ -36,7 +40,7 @@ void run(std::string const& endpoint, double timeout, int steps, std::string con
         client.begin_step({n, dt * (n - 1), dt}, fluid.view());
         client.end_step();
         std::cout << "step " << n << std::endl;
-        if (steps_between_checkpoints == 0 || n % steps_between_checkpoints != 0) continue;
+        if (rank.number > 0 || steps_between_checkpoints == 0 || n % steps_between_checkpoints != 0) continue;
         coupling::SavedCheckpoint const saved = client.save_checkpoint(dt * (n - 1) + dt, complete_step);
         complete_step = saved.step;
         std::cout << "saved step " << saved.step << " of session " << saved.session << std::endl;
@@ -48,11 +52,13 @@ void run(std::string const& endpoint, double timeout, int steps, std::string con
 
 int main(int argc, char** argv)
 {
-    if (argc < 4 || argc > 6) return 2;
+    if (argc < 4 || argc > 8 || argc == 7) return 2;
     try
     {
-        run(argv[1], std::atof(argv[2]), std::atoi(argv[3]), argc > 4 ? argv[4] : "",
-            argc > 5 ? std::atoi(argv[5]) : 0);
+        coupling::Rank const rank =
+            argc == 8 ? coupling::Rank{std::atoi(argv[6]), std::atoi(argv[7]), test::run_number} : coupling::Rank{};
+        run(argv[1], std::atof(argv[2]), std::atoi(argv[3]), argc > 4 ? argv[4] : "", argc > 5 ? std::atoi(argv[5]) : 0,
+            rank);
         return 0;
     }
     catch (std::exception const& error)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cut a coupled run at random moments, go on from its last checkpoint, and compare the end with an uninterrupted run.
 
-Usage: restart_kills.py [--moments N] [--seed S]
+Usage: restart_kills.py [--moments N] [--seed S] [--kind K]
 Prints `figure: restarts_bitwise_equal = N [1]`; the exit code is 0 if all of the N ends are equal to the bit.
 
 At each moment the server, the client or ./gimdem itself (both, then) is killed by SIGKILL; the run that goes on may be
@@ -38,12 +38,18 @@ class Kind:
     schedule: str
     adaptive: bool = False  # time steps by the Courant number
     text: bool = False  # fields as text
+    ranks: int = 1
 
     def __str__(self) -> str:
-        return f"{self.schedule}{', adaptive steps' if self.adaptive else ''}{', fields as text' if self.text else ''}"
+        return (f"{self.schedule}{', adaptive steps' if self.adaptive else ''}{', fields as text' if self.text else ''}"
+                f"{f', {self.ranks} ranks' if self.ranks > 1 else ''}")
+
+    def options(self) -> list[str]:
+        return ["--ranks", str(self.ranks)]
 
 
-KINDS = (Kind("serial"), Kind("overlapped"), Kind("serial", adaptive=True), Kind("overlapped", adaptive=True, text=True))
+KINDS = (Kind("serial"), Kind("overlapped"), Kind("serial", adaptive=True),
+         Kind("overlapped", adaptive=True, text=True), Kind("serial", ranks=2))
 
 
 def substitute(file: Path, pattern: str, text: str) -> None:
@@ -148,12 +154,12 @@ def cut(case: Path, options: list[str], steps: int, victim: str, choose: random.
     return f"{victim} behind step {steps}"
 
 
-def finish(case: Path) -> None:
+def finish(case: Path, kind: Kind) -> None:
     """From the last checkpoint, or from the start where there is none."""
-    process = start(case, "--restart", "latest")
+    process = start(case, *kind.options(), "--restart", "latest")
     _, err = process.communicate()
     if b"left a checkpoint" in err:
-        process = start(case)
+        process = start(case, *kind.options())
         _, err = process.communicate()
     if process.returncode != 0 and b"nothing is left to do" not in err:
         raise RuntimeError(err.decode())
@@ -162,15 +168,15 @@ def finish(case: Path) -> None:
 def one_moment(folder: Path, kind: Kind, whole: dict[str, bytes], choose: random.Random) -> list[str]:
     case = make_case(folder, kind)
     story = []
-    options: list[str] = []
+    options = kind.options()
     steps = 95
     for _ in range(choose.choice((1, 1, 1, 2))):
         victim = choose.choice(("gimdem-server", "gimdemFoam", "gimdem"))
         steps = choose.randrange(0, steps)
         story.append(cut(case, options, steps, victim, choose))
-        options = ["--restart", "latest"]
+        options = [*kind.options(), "--restart", "latest"]
         steps = max(1, 90 - steps)  # what is left
-    finish(case)
+    finish(case, kind)
     # A run that was killed before its first checkpoint has none, and the one before it is the last.
     last = [run for run in sorted((case / "runs").iterdir()) if any(run.glob("checkpoints/step_*.h5"))][-1]
     different = differences(whole, end_of(last))
@@ -183,6 +189,7 @@ def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--moments", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--kind", type=int, help="of KINDS, alone")
     parser.add_argument("--verbose", action="store_true", help="as every test here; it always tells what it does")
     options = parser.parse_args()
     choose = random.Random(options.seed)
@@ -190,10 +197,10 @@ def main() -> int:
     wholes: dict[Kind, dict[str, bytes]] = {}
     with tempfile.TemporaryDirectory(prefix="gimdem-kills-") as root:
         for moment in range(options.moments):
-            kind = KINDS[moment % len(KINDS)]
+            kind = KINDS[moment % len(KINDS) if options.kind is None else options.kind]
             if kind not in wholes:
                 case = make_case(Path(root) / f"whole-{len(wholes)}", kind)
-                process = start(case)
+                process = start(case, *kind.options())
                 _, err = process.communicate()
                 if process.returncode != 0:
                     raise RuntimeError(err.decode())

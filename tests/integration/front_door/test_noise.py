@@ -31,6 +31,10 @@ class Roughness(unittest.TestCase):
     def test_leaves_out_what_is_slow(self) -> None:
         self.assertLess(noise_series.roughness(TIME, wave(1, 30)), 1e-3 * 2 * np.pi * 30)
 
+    def test_is_the_same_whatever_the_mean(self) -> None:
+        rough = noise_series.roughness(TIME, wave(3, 200))
+        self.assertAlmostEqual(noise_series.roughness(TIME, 1e7 + wave(3, 200)) / rough, 1, delta=1e-6)
+
     def test_leaves_out_the_start(self) -> None:
         pressure = np.where(TIME < 0.19, wave(1000, 500), wave(3, 200))
         self.assertAlmostEqual(noise_series.roughness(TIME, pressure) / (3 * 2 * np.pi * 200 / np.sqrt(2)), 1, delta=2e-3)

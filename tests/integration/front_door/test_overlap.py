@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -29,6 +30,28 @@ class Bands(unittest.TestCase):
         self.assertAlmostEqual(overlap_series.band(TIME, signal, 10, 50) / (5 / np.sqrt(2)), 1, delta=1e-3)
         self.assertAlmostEqual(overlap_series.band(TIME, signal, 3, 10) / (2 / np.sqrt(2)), 1, delta=1e-3)
         self.assertLess(overlap_series.band(TIME, signal, 60, 400), 1e-3)
+
+    def test_hold_nothing_of_the_mean(self) -> None:
+        # Hann's window would put half of a mean into the first line of the spectrum, at 0.5 Hz.
+        self.assertAlmostEqual(overlap_series.band(TIME, 300 + wave(5, 2), 0, 3) / (5 / np.sqrt(2)), 1, delta=1e-3)
+
+
+class Measures(unittest.TestCase):
+    def test_are_of_the_fluidised_bed_and_its_pressures(self) -> None:
+        start = TIME < 0.59  # of two seconds, of which three tenths are left out
+        columns = {"time": TIME, "bed_height": np.where(start, 9.0, 0.25), "pressure_drop": np.where(start, 1e6, wave(5, 2)),
+                   "pressure_45mm": wave(2, 20), "pressure_force": TIME, "pressure_iterations": TIME}
+        with tempfile.TemporaryDirectory() as folder:
+            rows = np.array(list(columns.values())).T
+            header = ",".join(f"{name} [1]" for name in columns)
+            np.savetxt(Path(folder) / "bed.csv", rows, fmt="%.17g", delimiter=",", header=header, comments="")
+            measures = overlap_series.measures_of(Path(folder))
+        self.assertAlmostEqual(measures.pop("bed_height"), 0.25, delta=1e-12)
+        # The window is cut from the waves where it happens to be: a hundredth for the slowest.
+        self.assertAlmostEqual(measures["pressure_drop_0_3_Hz"] / (5 / np.sqrt(2)), 1, delta=2e-2)
+        self.assertAlmostEqual(measures["pressure_45mm_10_50_Hz"] / (2 / np.sqrt(2)), 1, delta=2e-2)
+        self.assertEqual(set(measures), {f"{name}_{band}_Hz" for name in ("pressure_drop", "pressure_45mm")
+                                         for band in ("0_3", "3_10", "10_50")})
 
 
 class Departure(unittest.TestCase):

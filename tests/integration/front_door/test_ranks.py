@@ -7,10 +7,16 @@ import os
 import re
 import shutil
 import signal
+import sys
 import unittest
 from pathlib import Path
 
-from real_case import RealCaseTest
+from front_door import ROOT, tree_of
+from ranked_case import RankedCaseTest
+
+sys.path.insert(0, str(ROOT / "tools"))
+import rank_parts  # noqa: E402
+from restart import Restart  # noqa: E402
 
 # The pressure is solved to 1e-9 of its first residual, 1e4 of which the matrix may make an error of the solution; forces
 # on particles and their 4 steps hand it on.
@@ -20,30 +26,7 @@ NOT_COMPARED = ("wall", "share_", "bytes", "imbalance", "overlap", "lag", "excha
 FIELD = re.compile(r"internalField\s+nonuniform List<(?:scalar|vector)>\s*\d+\s*\(\n(.*?)\n\)\s*;", re.DOTALL)
 
 
-class Ranks(RealCaseTest):
-    def setUp(self) -> None:
-        super().setUp()
-        self.edit(r"^sample_interval = .*$", "sample_interval = 1e-4\ncheckpoint_interval = 2e-4")
-        self.change("controlDict", r"(?m)^writeInterval .*;", "writeInterval 2e-4;")
-        self.change("controlDict", r"(?m)^writeFormat .*;", "writeFormat ascii;")
-        self.change("controlDict", r"(?m)^writePrecision .*;", "writePrecision 12;")
-        # Of the solvers the one with the fewest messages: on a busy machine each may wait for its turn.
-        self.change("fvSolution", r"solver +GAMG;", "solver PCG; preconditioner DIC;")
-        self.change("fvSolution", r"relTol +0.05;", "relTol 1e-9;")
-        self.change("fvSolution", r"tolerance +1e-6;", "tolerance 0;")
-        self.change("fvSolution", r"relTol +0.003;", "relTol 1e-9;")
-
-    def change(self, dictionary: str, pattern: str, text: str) -> None:
-        file = self.case / "system" / dictionary
-        content, count = re.subn(pattern, text, file.read_text())
-        self.assertEqual(count, 1, f"{pattern} in {dictionary}")
-        file.write_text(content)
-
-    def run_case(self, ranks: int, until: str, *options: object) -> Path:
-        code, _, err = self.gimdem("run", self.case, "--ranks", ranks, "--until", until, *options, patience=200)
-        self.assertEqual(code, 0, err)
-        return max((self.case / "runs").iterdir())
-
+class Ranks(RankedCaseTest):
     def numbers(self, file: Path) -> list[float]:
         """The values of the cells."""
         found = FIELD.search(file.read_text())
@@ -78,30 +61,50 @@ class Ranks(RealCaseTest):
         middle = two / "checkpoints" / "step_000000002_at_0.0002.h5"
         restarted = self.run_case(2, "0.0004", "--restart", middle)
         self.assertEqual(self.figures(restarted)["coupling_steps"], 2)
-        # Same cut, same numbers but for rounding in files, and the same solvers to their tolerance.
-        for name in ("U", "p", "alpha"):
-            self.assert_close(self.numbers(two / "0.0004" / name), self.numbers(restarted / "0.0004" / name),
+        # The same cut: each rank goes on from its own fields, and both sides end to the bit as if they had not stopped.
+        self.assert_same_end(two, restarted)
+        self.assert_parts_are_used_only_if_whole(two)
+
+        anew = self.run_case(1, "0.0004", "--restart", middle)
+        for name in ("U", "p", "alpha"):  # cut in another way: to the tolerance of the solvers
+            self.assert_close(self.numbers(two / "0.0004" / name), self.numbers(anew / "0.0004" / name),
                               f"restarted_{name}")
+
+    def assert_same_end(self, one: Path, other: Path) -> None:
+        checkpoint = Path("checkpoints") / "step_000000004_at_0.0004.h5"
+        self.assertEqual((one / checkpoint).read_bytes(), (other / checkpoint).read_bytes(), "particles")
+        for folder in ("0.0004", "ranks/processor0/0.0004", "ranks/processor1/0.0004"):
+            ones, others = tree_of(one / folder), tree_of(other / folder)
+            for fields in (ones, others):
+                del fields["uniform/gimdemCheckpoint"]  # differs in the number of the session
+            self.assertGreaterEqual(set(ones), {"U", "p", "alpha", "alphaPhi"}, folder)
+            self.assertEqual(sorted(name for name in ones.keys() | others.keys() if ones.get(name) != others.get(name)),
+                             [], f"fluid in {folder}")
+        # The first row of a restarted run has no interval before it.
+        rows = [(run / "bed.csv").read_text().splitlines() for run in (one, other)]
+        self.assertEqual(rows[0][-1], rows[1][-1], "bed.csv")
+
+    def assert_parts_are_used_only_if_whole(self, run: Path) -> None:
+        restart = Restart(run / "checkpoints" / "step_000000002_at_0.0002.h5", run / "0.0002")
+        cut = run / rank_parts.DICTIONARY
+        parts = rank_parts.usable(restart, cut, 2)
+        self.assertEqual([part.relative_to(run) for part in parts], [Path("ranks/processor0"), Path("ranks/processor1")])
+        self.assertEqual(rank_parts.usable(restart, cut, 3), [], "another number of ranks")
+        other_cut = self.folder / "another_cut"
+        other_cut.write_text(cut.read_text().replace("simple", "hierarchical"))
+        self.assertEqual(rank_parts.usable(restart, other_cut, 2), [])
+        velocity = parts[1] / "0.0002" / "U"
+        whole = velocity.read_bytes()
+        velocity.write_bytes(whole[:-1] + b" ")
+        self.assertEqual(rank_parts.usable(restart, cut, 2), [], "damaged fields")
+        velocity.write_bytes(whole)
+        self.assertEqual(rank_parts.usable(restart, cut, 2), parts)
 
     def start_running(self):
         process = self.start("run", self.case, "--ranks", 2, "--until", "50")
         self.wait_until(lambda: self.rows(self.run_folder) > 3 or process.poll() is not None, "samples", 90)
         self.assertIsNone(process.poll(), process.stderr.read() if process.poll() is not None else "")
         return process
-
-    def ranks(self) -> list[int]:
-        """Process numbers by rank."""
-        found = {}
-        for pid in self.processes():
-            try:
-                if not os.readlink(f"/proc/{pid}/exe").endswith("/gimdemFoam"):
-                    continue
-                words = Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
-            except OSError:
-                continue
-            rank = [word for word in words if word.startswith(b"OMPI_COMM_WORLD_RANK=")]
-            found[int(rank[0].split(b"=")[1])] = pid
-        return [found[rank] for rank in sorted(found)]
 
     def test_a_killed_rank_ends_the_run(self) -> None:
         process = self.start_running()

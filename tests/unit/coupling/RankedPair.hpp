@@ -24,15 +24,18 @@ inline coupling::ClientOptions rank_options(std::string const& endpoint, int ran
     return options;
 }
 
-/// small_mesh() in slices, and what each rank knows of the endpoints.
+/// A mesh in slices, and what each rank knows of the endpoints.
 class RankedClient
 {
 public:
     RankedClient(std::string const& endpoint, int ranks)
-        : pieces(cut(small_mesh(), dealt(small_mesh().cell_count, ranks, 2)))
+        : RankedClient(rank_options(endpoint, 0, ranks), cut(small_mesh(), dealt(small_mesh().cell_count, ranks, 2)))
+    {
+    }
+    RankedClient(coupling::ClientOptions const& first, MeshParts mesh) : pieces(std::move(mesh))
     {
         clients.reserve(pieces.parts.size());
-        clients.emplace_back(rank_options(endpoint, 0, ranks));
+        clients.emplace_back(first);
     }
 
     std::size_t count() const { return pieces.parts.size(); }

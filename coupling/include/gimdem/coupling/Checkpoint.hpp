@@ -14,6 +14,11 @@ struct ResumePoint
     std::uint64_t session = 0;  ///< that saved the checkpoint
     std::int64_t step = 0;      ///< SavedCheckpoint::step
     double time = 0;            ///< of the fluid [s]
+
+    friend bool operator==(ResumePoint const& a, ResumePoint const& b)
+    {
+        return a.session == b.session && a.step == b.step && a.time == b.time;
+    }
 };
 
 /// What a client asks its server for between two steps.

@@ -135,7 +135,7 @@ public:
     /// @pre receive_fluid. Answers it.
     void send_solid(SolidFields const& fields, Timings const& timings, StepCells const& cells = {});
 
-    /// The session is over because the client is gone, silent or slow, not because it said why.
+    /// The session is over because the client, or a rank of it, is gone, silent or slow, not because it said why.
     bool has_lost_client() const;
     /// The session's number, by which a client that goes on names it.
     std::uint64_t session_number() const;

@@ -159,6 +159,30 @@ TEST(MeshMerge, SeesTheSameFaceInOtherDigitsAndFromAnotherPoint)
     EXPECT_EQ(merged.neighbour.size(), whole.neighbour.size());
 }
 
+/// Faces of a processor patch may come in any order, as long as it is the same on both sides.
+TEST(MeshMerge, SortsInternalFacesWhateverTheOrderOfASeam)
+{
+    Mesh const whole = box();
+    MeshParts pieces = cut(whole, dealt(whole.cell_count, 2, 1));
+    for (Mesh& part : pieces.parts)
+    {
+        Patch const& seam = part.patches.back();
+        auto const face = static_cast<std::size_t>(seam.start_face);
+        auto const count = static_cast<std::size_t>(seam.face_count);
+        std::reverse(part.owner.begin() + seam.start_face, part.owner.begin() + seam.start_face + seam.face_count);
+        std::vector<std::int32_t> const points(part.face_points.begin() + part.face_offsets[face],
+                                               part.face_points.begin() + part.face_offsets[face + count]);
+        for (std::size_t i = 0; i < count; ++i)  // all have four points
+            std::copy_n(&points[4 * (count - 1 - i)], 4, part.face_points.begin() + part.face_offsets[face + i]);
+    }
+
+    Mesh const merged = merge_meshes(pieces.parts).mesh;
+
+    for (std::size_t f = 1; f < merged.neighbour.size(); ++f)
+        EXPECT_LT(std::pair(merged.owner[f - 1], merged.neighbour[f - 1]),
+                  std::pair(merged.owner[f], merged.neighbour[f]));
+}
+
 class MeshMergeRefuses : public testing::Test
 {
 protected:
@@ -179,6 +203,8 @@ TEST_F(MeshMergeRefuses, ARankThatBordersOnItself)
 {
     seam(1).neighbour_rank = 1;
     expect("rank 0 has 12 faces, but rank 1 has 0 towards it");
+    seam(0).neighbour_rank = 0;
+    expect("\"procBoundary0to1\" of rank 0 leads to rank 0 (there are 2 ranks");
 }
 
 TEST_F(MeshMergeRefuses, TwoPatchesBetweenTwoRanks)

@@ -164,6 +164,13 @@ std::vector<Damage> const damages{
          m.envelope.mutable_arrays(0)->set_count(3 * cells);
      },
      "1 components instead of 3"},
+    {"FluidMoreComponents", good_fluid,
+     [](auto& m)
+     {
+         m.envelope.mutable_arrays(0)->set_components(9);
+         m.envelope.mutable_arrays(0)->set_count(cells / 3);
+     },
+     "9 components instead of 3"},
     {"FluidUnasked", good_fluid,
      [](auto& m) { m.add("pressure", v1::ELEMENT_TYPE_F64, 1, std::vector<double>(cells)); }, "2 arrays instead of 1"},
     {"FluidMissing", good_fluid,

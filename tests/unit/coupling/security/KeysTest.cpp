@@ -51,6 +51,16 @@ TEST(Keys, AreNeverOverwritten)
 
     EXPECT_FAULT(make_keys(keys.path()), Fault::user, "holds keys already");
     EXPECT_EQ(read_server_keys(keys.path()).own.secret_key, before);
+    for (char const* file : {"server.secret", "server.public", "client.secret"})
+        fs::remove(keys / file);
+    EXPECT_FAULT(make_keys(keys.path()), Fault::user, "holds keys already (clients;");
+}
+
+TEST(Keys, OfClientsAreTheFilesCalledPublic)
+{
+    KeyFolder const keys;
+    std::ofstream(keys / "clients/README") << "whom we trust, and since when";
+    EXPECT_EQ(read_server_keys(keys.path()).clients.size(), 1u);
 }
 
 TEST(Keys, ThatOthersReadAreRefused)
@@ -72,6 +82,8 @@ TEST(Keys, OfThoseWeTrustThatOthersWriteAreRefused)
     fs::permissions(keys / "server.public", owner_only | fs::perms::group_read | fs::perms::others_read);
     read_client_keys(keys.path());  // a public key may be read
     fs::permissions(keys / "server.public", owner_only | fs::perms::others_write);
+    EXPECT_FAULT(read_client_keys(keys.path()), Fault::user, "can be written by other users");
+    fs::permissions(keys / "server.public", owner_only | fs::perms::group_write);
     EXPECT_FAULT(read_client_keys(keys.path()), Fault::user, "can be written by other users");
     fs::permissions(keys / "clients", fs::perms::all);
     EXPECT_FAULT(read_server_keys(keys.path()), Fault::user, "can be written by other users");

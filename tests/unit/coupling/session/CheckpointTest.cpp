@@ -99,10 +99,10 @@ TEST_P(Checkpoints, AreOfTheEndOfTheLastStep)
     SavedCheckpoint const first = client.save_checkpoint(0.002, 0);
     run_step(client, 3);
     SavedCheckpoint const second = client.save_checkpoint(0.003, first.step);
-    std::uint64_t const session = server.session_number();
     client.finish("done");
 
     Served const seen = served.get();
+    std::uint64_t const session = server.session_number();
     EXPECT_EQ(seen.fault, "");
     EXPECT_FALSE(seen.resume);
     EXPECT_EQ(seen.steps_before, (std::vector<std::int64_t>{2, 3}));

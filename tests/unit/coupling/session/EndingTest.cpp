@@ -218,6 +218,26 @@ TEST(Ending, ServerThatVanishesIsNoticedAtOnce)
     }
 }
 
+TEST(Ending, AServerOfAnotherVersionIsNoPeerThatFailed)
+{
+    RawPeer server = RawPeer::server(unused_ipc_endpoint());
+    auto told = in_background(
+        [&]
+        {
+            server.receive();
+            RawMessage error = raw_error("this client is too old");
+            error.envelope.mutable_error()->set_fault(v1::FAULT_KIND_VERSION);
+            server.send(error);
+        });
+    Client client(client_options(server.endpoint()));
+    EXPECT_THAT(thrown_by(
+                    [&] {
+                        client.connect({1.2, 1.8e-5});
+                    }),
+                testing::AllOf(testing::StartsWith("version: "), testing::HasSubstr("this client is too old")));
+    told.get();
+}
+
 TEST(Ending, SilentClientTimesOut)
 {
     Server server(server_options(unused_ipc_endpoint(), impatient));

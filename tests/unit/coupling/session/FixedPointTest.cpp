@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <barrier>
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <thread>
 #include <vector>
 
 namespace gimdem::coupling
@@ -86,6 +89,70 @@ TEST(AitkenRelaxation, OfSeveralRanksIsThatOfTheWhole)
         part.relax();
         EXPECT_NEAR(whole.guess(0)[1], part.guess(0)[1], 1e-12);
     }
+}
+
+/// Adds up over two threads, as MPI's all-reduce does over ranks.
+class TwoRanks
+{
+public:
+    void add_up(Span<double> numbers)
+    {
+        {
+            std::lock_guard<std::mutex> const lock(mutex_);
+            sums_.resize(numbers.size());
+            for (std::size_t i = 0; i < numbers.size(); ++i)
+                sums_[i] += numbers[i];
+        }
+        both_.arrive_and_wait();
+        std::copy(told_.begin(), told_.end(), numbers.begin());
+    }
+
+private:
+    /// Once both have added theirs.
+    struct Tell
+    {
+        TwoRanks* ranks;
+        void operator()() noexcept
+        {
+            ranks->told_.swap(ranks->sums_);
+            ranks->sums_.clear();
+        }
+    };
+
+    std::mutex mutex_;
+    std::vector<double> sums_, told_;
+    std::barrier<Tell> both_{2, Tell{this}};
+};
+
+/// Four passes over some numbers, of another law each.
+std::vector<double> relaxed(AitkenRelaxation relaxation, std::vector<double> const& start, std::vector<double> const& a)
+{
+    relaxation.start({start}, 1);
+    for (int pass = 0; pass < 4; ++pass)
+    {
+        std::vector<double> image(start.size());
+        for (std::size_t i = 0; i < start.size(); ++i)
+            image[i] = a[i] * relaxation.guess(0)[i] + 1;
+        relaxation.take({image});
+        relaxation.relax();
+    }
+    return {relaxation.guess(0).begin(), relaxation.guess(0).end()};
+}
+
+TEST(AitkenRelaxation, OfRanksWithUnlikePartsIsThatOfTheWhole)
+{
+    std::vector<double> const whole = relaxed(AitkenRelaxation(0.5), {1, 2, -3, 0.5}, {-2, 0.5, -7, 0.1});
+
+    TwoRanks ranks;
+    auto const sum = [&](Span<double> numbers) { ranks.add_up(numbers); };
+    std::vector<double> first, second;
+    std::thread other([&] { second = relaxed(AitkenRelaxation(0.5, sum), {-3, 0.5}, {-7, 0.1}); });
+    first = relaxed(AitkenRelaxation(0.5, sum), {1, 2}, {-2, 0.5});
+    other.join();
+
+    first.insert(first.end(), second.begin(), second.end());
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(first[i], whole[i], 1e-12) << "sums in another order; the numbers stay below 100";
 }
 
 TEST(AitkenRelaxation, TakesBlocksAlongThatItDoesNotJudge)

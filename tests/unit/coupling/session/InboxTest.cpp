@@ -90,5 +90,21 @@ TEST(Inbox, KeepsNoMoreThanAFewUnreadLetters)
     EXPECT_EQ(kept, 16);
 }
 
+TEST(Inbox, KeepsNoMoreThanTwoUnreadLettersWithArrays)
+{
+    Inbox inbox;
+    for (int k = 0; k < 4; ++k)
+    {
+        Letter large = letter("large " + std::to_string(k));
+        large.message.arrays.emplace_back(8);
+        inbox.put(std::move(large));
+    }
+    inbox.put(letter("small"));
+
+    EXPECT_EQ(next_reason(inbox), "large 0");
+    EXPECT_EQ(next_reason(inbox), "large 1");
+    EXPECT_EQ(next_reason(inbox), "small");
+}
+
 }  // namespace
 }  // namespace gimdem::coupling::session

@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "Faults.hpp"
 #include "RankedPair.hpp"
+#include "RawMessages.hpp"
 
 namespace gimdem::test
 {
@@ -71,6 +73,34 @@ TEST_F(RankFault, DifferentStepsAreRefused)
     EXPECT_THAT(words, Each(AllOf(StartsWith("peer: "), HasSubstr("must take the same steps"))));
 }
 
+TEST(RankFaultOfAnOldServer, IsThatItKnowsNoRanks)
+{
+    RawPeer server = RawPeer::server(unused_ipc_endpoint());
+    auto greeted = in_background(
+        [&]
+        {
+            server.receive();
+            server.send(raw_welcome());  // as protocol 1.0 has it: without endpoints
+            return server.receive_error();
+        });
+    {
+        Client client(rank_options(server.endpoint(), 0, 2));
+        EXPECT_FAULT(client.connect({1.2, 1.8e-5}), Fault::version, "told endpoints for 0 more ranks instead of 1");
+    }
+    EXPECT_THAT(greeted.get(), HasSubstr("update it, or run one process"));
+}
+
+TEST_F(RankFault, DifferentFieldsAreRefused)
+{
+    start(2);
+    client->connect_first([](ClientOptions& options) { options.wants = {field::void_fraction}; });
+
+    auto const words = client->on_all([&](std::size_t rank) { client->begin(rank); });
+
+    EXPECT_THAT(served.get(), AllOf(StartsWith("protocol: "), HasSubstr("rank 1"), HasSubstr("differs from")));
+    EXPECT_THAT(words, Each(HasSubstr("differs from that of rank 0")));
+}
+
 TEST_F(RankFault, DifferentFluidsAreRefused)
 {
     start(2);
@@ -121,6 +151,55 @@ TEST_F(RankFault, IsSeenWhileTheServerWaitsForAnotherRank)
 
     EXPECT_THAT(served.get(), AllOf(HasSubstr("rank 1 of 2"), HasSubstr("division by zero")));
     EXPECT_FAULT(client->step_of(0, 1), Fault::peer, "division by zero");
+}
+
+/// The server may wait for such a client to come back, but not for one that said why it ends.
+TEST_F(RankFault, IsALossIfTheRankSaysNothing)
+{
+    ServerOptions options = server_options(unused_ipc_endpoint());
+    options.step_time = 0.5;  // rank 1 lives, and is as good as lost then
+    start(2, options);
+    client->connect_first();
+
+    auto const words = client->on_all(
+        [&](std::size_t rank)
+        {
+            client->begin(rank);
+            if (rank == 0) client->step_of(0, 1);
+        });
+
+    EXPECT_THAT(served.get(), AllOf(StartsWith("timeout: "), HasSubstr("rank 1 of 2"), HasSubstr("has not sent")));
+    EXPECT_THAT(words[0], AllOf(HasSubstr("rank 1 of 2"), HasSubstr("has not sent")));
+    EXPECT_TRUE(server->has_lost_client());
+}
+
+TEST_F(RankFault, IsNoLossIfTheRankSaysWhy)
+{
+    start(2);
+    client->connect_first();
+    client->on_all([&](std::size_t rank) { client->begin(rank); });
+
+    client->clients[1].abort("out of memory");
+
+    EXPECT_THAT(served.get(), HasSubstr("out of memory"));
+    EXPECT_FALSE(server->has_lost_client());
+}
+
+TEST_F(RankFault, DifferentCheckpointsAreRefused)
+{
+    start(2);
+    client->connect_first([](ClientOptions& options) { options.resume = ResumePoint{7, 20, 0.5}; });
+
+    auto const words = client->on_all(
+        [&](std::size_t rank)
+        {
+            if (rank == 1) client->clients[1].connect({1.2, 1.8e-5});
+            client->clients[rank].send_mesh(view_of(client->pieces.parts[rank]));
+        });
+
+    EXPECT_THAT(served.get(), AllOf(StartsWith("protocol: "), HasSubstr("rank 1"),
+                                    HasSubstr("it goes on from step 20 of session 7 at 0.5 s, rank 0 begins a run")));
+    EXPECT_THAT(words, Each(HasSubstr("start all ranks from one checkpoint")));
 }
 
 TEST_F(RankFault, AGoodbyeOfOneRankOnlyIsOutOfOrder)

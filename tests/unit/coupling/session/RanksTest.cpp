@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "RankedPair.hpp"
 
 namespace gimdem::test
@@ -71,18 +74,22 @@ TEST_P(RankedRun, ExchangesEveryNumberOfEveryRank)
     std::vector<std::size_t> first(1, 0);
     for (std::size_t rank = 0; rank < client.count(); ++rank)
         first.push_back(first.back() + client.cells(rank));
+    std::array<std::vector<double>, steps> waiting;  // of each rank, when it began the step
+    for (auto& of_ranks : waiting)
+        of_ranks.resize(client.count());
     auto const words = client.on_all(
         [&, schedule = schedule](std::size_t rank)
         {
             client.begin(rank);
             for (int n = 1; n <= steps; ++n)
             {
+                waiting[static_cast<std::size_t>(n - 1)][rank] = client.clients[rank].exchange_times().waiting;
                 SolidFields const& solid = client.step_of(rank, n);
                 SolidArrays const whole(first.back(), schedule == Schedule::serial ? n : n - 1);
                 std::size_t const cells = client.cells(rank);
                 EXPECT_EQ(to_vector(solid.void_fraction), slice(whole.void_fraction, first[rank], cells));
                 EXPECT_EQ(to_vector(solid.drag_momentum), slice(whole.drag_momentum, 3 * first[rank], 3 * cells));
-                client.clients[rank].end_step({rank == 1 ? 0.5 : 0.25, 0, 0});
+                client.clients[rank].end_step({rank == 1 ? 0.5 : 0.25, rank == 1 ? 0.125 : 0, 0.0625});
             }
             EXPECT_EQ(client.clients[rank].stop_request(), "enough");
             client.clients[rank].finish("done");
@@ -108,6 +115,8 @@ TEST_P(RankedRun, ExchangesEveryNumberOfEveryRank)
         ASSERT_EQ(state.monitors.size(), 1u);
         EXPECT_EQ(state.monitors[0].value, 0) << "monitors are those of rank 0";
         EXPECT_EQ(state.previous.compute, n == 1 ? 0 : 0.5) << "the slowest rank's";
+        EXPECT_EQ(state.previous.mapping, n == 1 ? 0 : 0.125);
+        EXPECT_EQ(state.waiting, *std::ranges::max_element(waiting[static_cast<std::size_t>(n - 1)])) << "the longest";
     }
 }
 
@@ -168,7 +177,10 @@ TEST(Ranks, RankZeroHasTheServerSaveForAll)
             client.step_of(rank, 1);
             client.clients[rank].end_step();
             EXPECT_EQ(client.clients[rank].welcome().saves_checkpoints, rank == 0);
-            if (rank == 0) EXPECT_EQ(client.clients[0].save_checkpoint(1e-3, 0).name, "first");
+            if (rank == 0)
+            {
+                EXPECT_EQ(client.clients[0].save_checkpoint(1e-3, 0).name, "first");
+            }
             client.step_of(rank, 2);
             client.clients[rank].end_step();
             client.clients[rank].finish("done");

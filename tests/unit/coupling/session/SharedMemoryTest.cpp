@@ -26,6 +26,7 @@ struct Wishes
     bool client;
     bool server;
     Schedule schedule;
+    bool compress = false;  ///< what does not lie in shared memory
 };
 
 class SharedRun : public testing::TestWithParam<Wishes>
@@ -53,6 +54,7 @@ TEST_P(SharedRun, ExchangesEveryNumberOfEveryStepAndLeavesNoName)
     int constexpr steps = 8;  // more than twice around the ring of three
     ServerOptions offered = server_options(unused_ipc_endpoint());
     offered.shared_memory = GetParam().server;
+    offered.encodings.lz4 = GetParam().compress;
     Server server(offered);
     auto served = in_background([&] { return serve(server, GetParam().schedule); });
     ClientOptions options = client_options(server.endpoint());
@@ -82,6 +84,8 @@ TEST_P(SharedRun, ExchangesEveryNumberOfEveryStepAndLeavesNoName)
 INSTANTIATE_TEST_SUITE_P(Wish, SharedRun,
                          testing::Values(Wishes{"both_serial", true, true, Schedule::serial},
                                          Wishes{"both_overlapped", true, true, Schedule::overlapped},
+                                         Wishes{"both_compressing", true, true, Schedule::serial, true},
+                                         Wishes{"neither_compressing", false, false, Schedule::serial, true},
                                          Wishes{"client_alone", true, false, Schedule::serial},
                                          Wishes{"server_alone", false, true, Schedule::overlapped}),
                          [](auto const& wishes) { return std::string(wishes.param.name); });

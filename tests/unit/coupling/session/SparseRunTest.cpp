@@ -9,6 +9,7 @@
 #include "Faults.hpp"
 #include "Pair.hpp"
 #include "RawMessages.hpp"
+#include "SparseSolid.hpp"
 
 namespace gimdem::test
 {
@@ -31,19 +32,9 @@ CellRuns bed(int n)
     return {{0, 100 + 40 * n}, {1500 + n, 1}};
 }
 
-/// The solid of step n: all numbers differ inside the bed, nothing outside.
 SolidArrays solid(int n)
 {
-    SolidArrays const full(cells, n);
-    SolidArrays only(cells, n);
-    for (std::size_t c = 0; c < cells; ++c)
-        if (!contains(bed(n), {{static_cast<std::int32_t>(c), 1}}))
-        {
-            only.void_fraction[c] = 1;
-            only.drag_coefficient[c] = 0;
-            std::fill_n(&only.drag_momentum[3 * c], 3, 0.0);
-        }
-    return only;
+    return solid_in(bed(n), cells, n);
 }
 
 struct Seen

@@ -155,6 +155,18 @@ TEST(StatusRequest, InAFloodChangesNothingForTheRun)
     EXPECT_LE(answers, 20 * (1 + clock_now() - start) + 1) << "20 a second, and as many at once";
 }
 
+TEST(StatusRequest, ThatIsLongerThanItNeedsIsNone)
+{
+    Server server(server_options(unused_ipc_endpoint()));
+    RawPeer asker = RawPeer::client(server.endpoint());
+    RawMessage question = raw_question();
+    question.envelope.mutable_status_request()->set_name(std::string(2000, 'x'));
+    asker.send(question);
+    asker.send(raw_question());
+    ASSERT_TRUE(asker.receive());
+    EXPECT_FALSE(asker.receive(0.3)) << "the second alone has an answer";
+}
+
 TEST(StatusRequest, OfAnotherVersionIsRefusedInWords)
 {
     Server server(server_options(unused_ipc_endpoint()));

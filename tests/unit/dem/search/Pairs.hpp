@@ -53,6 +53,36 @@ inline Pairs ids_of(ParticleState const& p, NeighborList const& list)
     return pairs;
 }
 
+/// A spring that tells its pair, and by its sign who comes first in it.
+inline Vec3 spring_of(std::int64_t a, std::int64_t b)
+{
+    return (a < b ? 1.0 : -1.0) * Vec3(1, static_cast<double>(a + b), static_cast<double>(a * b));
+}
+/// Puts spring_of() on every pair.
+inline void give_springs(ParticleState const& p, NeighborList& list)
+{
+    auto const first = first_of_pairs(list);
+    SpringsOfPairs springs{tangential_of_pairs(list), {}, {}};
+    for (std::int64_t k = 0; k < list.pair_count(); ++k)
+        springs.tangential[k] = Quad::of(spring_of(p.id[first[k]], p.id[list.second[k]]), 0);
+    put_springs(springs, list);
+}
+/// Pairs of `before` have the springs of give_springs(), all others none. Returns how many those are.
+inline int expect_springs_of(Pairs const& before, ParticleState const& p, NeighborList const& list)
+{
+    int kept = 0;
+    auto const first = first_of_pairs(list);
+    auto const carried = tangential_of_pairs(list);
+    for (std::int64_t k = 0; k < list.pair_count(); ++k)
+    {
+        auto const a = p.id[first[k]], b = p.id[list.second[k]];
+        bool const known = before.contains({std::min(a, b), std::max(a, b)});
+        EXPECT_EQ(carried[k].xyz(), known ? spring_of(a, b) : Vec3(Vec3::Zero()));
+        kept += known;
+    }
+    return kept;
+}
+
 /// The list holds `expected`, each pair once, in the layout that NeighborList promises.
 inline void expect_list(ParticleState const& p, NeighborList const& list, Pairs const& expected)
 {
