@@ -28,6 +28,10 @@ class Restart:
     checkpoint: Path
     state: State | None = None  # in the run that wrote the checkpoint
 
+    @property
+    def fluid(self) -> Path | None:
+        return self.state.fluid if self.state else None
+
     def copy_fluid(self, folder: Path) -> None:
         """Give OpenFOAM in a new run the fields and the mesh. Other clients read their state where it is."""
         if not isinstance(self.state, TimeFolder):
@@ -64,6 +68,7 @@ class State:
         return self.own_fault()
 
     def own_fault(self) -> str:
+        """The same of the fluid alone."""
         raise NotImplementedError
 
     def options(self) -> list[str]:
