@@ -16,7 +16,7 @@ from ranked_case import RankedCaseTest
 
 sys.path.insert(0, str(ROOT / "tools"))
 import rank_parts  # noqa: E402
-from restart import Restart  # noqa: E402
+from restart import RECORD, TimeFolder  # noqa: E402
 
 # The pressure is solved to 1e-9 of its first residual, 1e4 of which the matrix may make an error of the solution; forces
 # on particles and their 4 steps hand it on.
@@ -85,20 +85,20 @@ class Ranks(RankedCaseTest):
         self.assertEqual(rows[0][-1], rows[1][-1], "bed.csv")
 
     def assert_parts_are_used_only_if_whole(self, run: Path) -> None:
-        restart = Restart(run / "checkpoints" / "step_000000002_at_0.0002.h5", run / "0.0002")
+        state = TimeFolder(run / "0.0002", (run / "0.0002" / RECORD).read_text(), run)
         cut = run / rank_parts.DICTIONARY
-        parts = rank_parts.usable(restart, cut, 2)
+        parts = rank_parts.usable(state, cut, 2)
         self.assertEqual([part.relative_to(run) for part in parts], [Path("ranks/processor0"), Path("ranks/processor1")])
-        self.assertEqual(rank_parts.usable(restart, cut, 3), [], "another number of ranks")
+        self.assertEqual(rank_parts.usable(state, cut, 3), [], "another number of ranks")
         other_cut = self.folder / "another_cut"
         other_cut.write_text(cut.read_text().replace("simple", "hierarchical"))
-        self.assertEqual(rank_parts.usable(restart, other_cut, 2), [])
+        self.assertEqual(rank_parts.usable(state, other_cut, 2), [])
         velocity = parts[1] / "0.0002" / "U"
         whole = velocity.read_bytes()
         velocity.write_bytes(whole[:-1] + b" ")
-        self.assertEqual(rank_parts.usable(restart, cut, 2), [], "damaged fields")
+        self.assertEqual(rank_parts.usable(state, cut, 2), [], "damaged fields")
         velocity.write_bytes(whole)
-        self.assertEqual(rank_parts.usable(restart, cut, 2), parts)
+        self.assertEqual(rank_parts.usable(state, cut, 2), parts)
 
     def start_running(self):
         process = self.start("run", self.case, "--ranks", 2, "--until", "50")
