@@ -61,13 +61,14 @@ def decompose(folder: Path, ranks: int, restart: Restart | None) -> str:
     # Fields go through text twice, and a restart must find every digit.
     with (folder / "system" / "controlDict").open("a") as text:
         text.write("\nwritePrecision 17; // --ranks: the last entry counts\n")
-    if restart and restart.fluid and (parts := usable(restart, dictionary, ranks)):
-        take(parts, restart.fluid.name, folder)
-        return f"the {ranks} ranks go on from their own fields"
-    if restart and restart.fluid:
-        tool("decomposePar", ["-time", restart.fluid.name, "-copyUniform"], folder)
+    if restart and restart.state:
+        time = restart.state.fluid.name
+        if parts := usable(restart.state, dictionary, ranks):
+            take(parts, time, folder)
+            return f"the {ranks} ranks go on from their own fields"
+        tool("decomposePar", ["-time", time, "-copyUniform"], folder)
         for part in processors(folder):
-            list_files(part / restart.fluid.name)
+            list_files(part / time)
     else:
         tool("decomposePar", [], folder)
     return f"the mesh is cut for {ranks} ranks, {how}"

@@ -6,7 +6,7 @@ import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
-from restart import CHECKPOINT, RECORD, STEP, Restart, TimeFolder
+from restart import CHECKPOINT, RECORD, STEP, State, TimeFolder
 
 KEPT = "ranks"  # folder of a run
 DICTIONARY = Path("system") / "decomposeParDict"
@@ -32,16 +32,15 @@ def is_checkpoint_there(run: Path, record: Path) -> bool:
     return told is not None and (run / "checkpoints" / told[1]).is_file()
 
 
-def usable(restart: Restart, dictionary: Path, ranks: int) -> list[Path]:
+def usable(state: State, dictionary: Path, ranks: int) -> list[Path]:
     """The parts that the run of before has of the fluid, by rank; none if they are not all whole, or were cut in
     another way than this dictionary tells."""
-    assert restart.fluid is not None
-    run = restart.fluid.parent
+    run = state.run
     if not (run / DICTIONARY).is_file() or (run / DICTIONARY).read_text() != dictionary.read_text():
         return []
     for folder in (run / KEPT, run):
         parts = processors(folder)
-        if len(parts) == ranks and all(is_part(part / restart.fluid.name, restart.fluid) for part in parts):
+        if len(parts) == ranks and all(is_part(part / state.fluid.name, state.fluid) for part in parts):
             return parts
     return []
 

@@ -49,6 +49,7 @@ public:
 
 private:
     void settle();
+    void warn_of_added_mass();
     void load(std::filesystem::path const& file);
     void accept_mesh();
     void finish_records();

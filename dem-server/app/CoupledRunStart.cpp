@@ -2,12 +2,15 @@
 /// How a coupled run comes to its first step: from a bed, from a checkpoint, or back to one with a client that returns.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "app/CoupledRun.hpp"
 #include "app/Run.hpp"
 #include "app/Terms.hpp"
 #include "core/Error.hpp"
+#include "engine/AddedMassCheck.hpp"
 #include "engine/BedMonitors.hpp"
 #include "engine/CellSizeCheck.hpp"
 #include "engine/Settling.hpp"
@@ -68,7 +71,20 @@ void CoupledRun::start(std::optional<std::filesystem::path> const& restart)
         settle();
         engine_.map_initial_state();
     }
+    warn_of_added_mass();
     accept_mesh();
+}
+
+void CoupledRun::warn_of_added_mass()
+{
+    if (schedule_ == coupling::Schedule::iterated || !settings_.fluid_forces.pressure_gradient) return;
+    double lightest = std::numeric_limits<double>::infinity();
+    for (std::int32_t const material : std::as_const(system_).particles().material.host())
+        lightest = std::min(lightest, settings_.materials[static_cast<std::size_t>(material)].density);
+    auto const void_fraction = engine_.fields().void_fraction;
+    std::string const note =
+        note_on_added_mass(client_.fluid.density, lightest, {void_fraction.data(), void_fraction.size()});
+    if (!note.empty()) events_.warn("added_mass", note);
 }
 
 void CoupledRun::go_on(coupling::ClientInfo const& client)

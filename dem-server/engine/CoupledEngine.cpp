@@ -48,11 +48,6 @@ void refuse_reuse_on_devices(MappingSettings const& mapping)
         "one); leave it out, or run on the processor with --device cpu");
 }
 
-Constant3 constant(Vec3 const& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
-
 }  // namespace
 
 CoupledEngine::CoupledEngine(Case const& settings, exec::Execution execution, PolyMesh const& mesh,
@@ -145,11 +140,11 @@ StepReport CoupledEngine::advance(coupling::Step const& step, coupling::FluidFie
     };
     bool const is_whole = !whole_fluid;
     insert_due(step.time);
-    if (!is_whole && !coverage_.has_loads(mapper_.cell_of().host())) fetch();
+    if (!is_whole && !coverage_.has_loads(cells_with_particles())) fetch();
     load_fluid(fluid);
     system_.begin_coupling_step(&on_particles_);
     system_.let_walls_move(true);
-    report.pressure_force = constant(system_.steady_fluid_force());
+    report.pressure_force = constant3(system_.steady_fluid_force());
     for (std::int64_t k = 0; k < report.dem_steps; ++k)
         system_.step(step.dt / static_cast<double>(report.dem_steps));
     report.timings.compute = seconds_since(start);
@@ -247,10 +242,21 @@ void CoupledEngine::mark_cells()
     }
 }
 
-// A device keeps the places of its particles to itself: there the whole fluid is asked for.
 void CoupledEngine::look_ahead()
 {
-    if (system_.device() == nullptr) coverage_.look_ahead(mapper_.cell_of().host(), has_drag_.host());
+    coverage_.look_ahead(cells_with_particles(), has_drag_.host());
+}
+
+// A device keeps the places of its particles to itself, and tells flags of the cells.
+std::span<std::int32_t const> CoupledEngine::cells_with_particles()
+{
+    DeviceDem* const device = system_.device();
+    if (device == nullptr) return mapper_.cell_of().host();
+    device->occupied_cells(occupied_);
+    occupied_cells_.clear();
+    for (std::int32_t c = 0; c < mesh_.cell_count(); ++c)
+        if (occupied_[c] != 0) occupied_cells_.push_back(c);
+    return occupied_cells_;
 }
 
 coupling::StepCells CoupledEngine::step_cells(bool can_ask)
@@ -259,7 +265,7 @@ coupling::StepCells CoupledEngine::step_cells(bool can_ask)
     std::span<std::uint8_t const> const flags = has_solid_.host();
     cells.solid = coupling::runs_where({flags.data(), flags.size()});
     bool const may_come_anywhere = inlets_ != nullptr && !inlets_->empty() && !can_ask;
-    if (system_.device() == nullptr && !may_come_anywhere) cells.needed = coverage_.needed(!can_ask);
+    if (!may_come_anywhere) cells.needed = coverage_.needed(!can_ask);
     return cells;
 }
 
@@ -315,8 +321,8 @@ void CoupledEngine::check_balance(double dt, StepReport& report) const
                    [=](std::int64_t c) { return Vec3(cell[c].w * Vec3(s[3 * c], s[3 * c + 1], s[3 * c + 2])); });
     double const mapped = exec::sum(execution_, mesh_.cell_count(), [=](std::int64_t c) { return solid_volume[c]; });
 
-    report.drag_force = constant(drag);
-    report.wall_force = constant(system_.wall_impulse() / dt);
+    report.drag_force = constant3(drag);
+    report.wall_force = constant3(system_.wall_impulse() / dt);
     report.momentum_imbalance = magnitude > 0 ? (given + drag).norm() / magnitude : 0;
     report.volume_imbalance = sums.volume > 0 ? std::abs(mapped - sums.volume) / sums.volume : 0;
 }

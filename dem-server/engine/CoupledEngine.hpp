@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/Case.hpp"
@@ -96,6 +97,7 @@ private:
     void mark_cells();
     void mark_resumed_cells();
     void look_ahead();
+    std::span<std::int32_t const> cells_with_particles();
     void check_balance(double dt, StepReport& report) const;
     void insert_due(double time);
     std::int64_t remove_leavers();
@@ -115,6 +117,8 @@ private:
     std::int64_t clips_given_up_ = 0;  ///< counted in steps that were repeated
     exec::Buffer<double> void_fraction_, momentum_source_, drag_coefficient_, drag_momentum_;
     exec::Buffer<std::uint8_t> has_solid_, has_drag_;  ///< flags of the cells
+    exec::Buffer<std::uint8_t> occupied_;              ///< likewise, from a device
+    std::vector<std::int32_t> occupied_cells_;
     FluidCoverage coverage_;
 };
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-
+#include <array>
 #include <type_traits>
 
 #include "exec/HostDevice.hpp"
@@ -109,6 +109,11 @@ GIMDEM_HD inline Vec3 vec3(Vector3<double> const& t)
 {
     return {t.x, t.y, t.z};
 }
+/// Three numbers of a case file.
+inline Vec3 vec3(std::array<double, 3> const& t)
+{
+    return {t[0], t[1], t[2]};
+}
 
 /// Three numbers, trivially copyable: how kernels hold constants such as gravity.
 struct Constant3
@@ -116,5 +121,9 @@ struct Constant3
     double x, y, z;
     GIMDEM_HD Vec3 vec() const { return {x, y, z}; }
 };
+GIMDEM_HD inline Constant3 constant3(Vec3 const& v)
+{
+    return {v.x(), v.y(), v.z()};
+}
 
 }  // namespace gimdem

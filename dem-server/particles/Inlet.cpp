@@ -13,35 +13,25 @@
 namespace gimdem
 {
 
-namespace
-{
-
-Vec3 vector(Triple const& t)
-{
-    return {t[0], t[1], t[2]};
-}
-
-}  // namespace
-
 Inlet::Inlet(InletSettings const& settings, Materials const& materials, Domain const& domain)
     : settings_(settings),
       domain_(domain),
       material_(materials.number_of(settings.material)),
       density_(materials[material_].density),
       sizes_(settings.diameter, settings.sizes),
-      low_(vector(settings.box[0])),
-      high_(vector(settings.box[1]))
+      low_(vec3(settings.box[0])),
+      high_(vec3(settings.box[1]))
 {
     double room = (high_ - low_).minCoeff();
     if (settings.radius > 0)
     {
-        Vec3 const normal = vector(settings.normal).normalized();
+        Vec3 const normal = vec3(settings.normal).normalized();
         int axis = 0;
         normal.cwiseAbs().minCoeff(&axis);
         across_ = normal.cross(Vec3::Unit(axis)).normalized();
         along_ = normal.cross(across_);
-        low_ = vector(settings.centre) - Vec3::Constant(settings.radius);
-        high_ = vector(settings.centre) + Vec3::Constant(settings.radius);
+        low_ = vec3(settings.centre) - Vec3::Constant(settings.radius);
+        high_ = vec3(settings.centre) + Vec3::Constant(settings.radius);
         room = 2 * settings.radius;
     }
     if (room < sizes_.largest())
@@ -94,7 +84,7 @@ std::vector<SphereSeed> Inlet::take(double time, ParticleState const& present)
             x = random_place(radius, random);
         if (attempt > most_attempts) break;
         visit_images(x, [&](Vec3 const& image) { grid.add(image, radius); });
-        seeds.push_back({x, radius, vector(settings_.velocity)});
+        seeds.push_back({x, radius, vec3(settings_.velocity)});
         ++state_.inserted;
         state_.mass += next_mass();
         state_.next_diameter = sizes_.draw(random);
@@ -121,7 +111,7 @@ Vec3 Inlet::random_place(double radius, RandomStream& random) const
     {
         double const distance = (settings_.radius - radius) * std::sqrt(random.unit());
         double const angle = 2 * std::numbers::pi * random.unit();
-        return vector(settings_.centre) + distance * (std::cos(angle) * across_ + std::sin(angle) * along_);
+        return vec3(settings_.centre) + distance * (std::cos(angle) * across_ + std::sin(angle) * along_);
     }
     Vec3 x;
     for (int axis = 0; axis < 3; ++axis)

@@ -16,11 +16,6 @@ namespace gimdem
 namespace
 {
 
-Constant3 constant(Vec3 const& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
-
 [[noreturn]] void fail_not_finite(ParticleState const& particles)
 {
     std::int64_t i = 0;
@@ -75,12 +70,12 @@ Extent Extent::of(exec::Execution const& execution, ParticleState const& particl
         [=](std::int64_t i)
         {
             Vec3 const x = position[i].xyz();
-            return Part{{constant(x), constant(x), position[i].w, position[i].w}, x.allFinite()};
+            return Part{{constant3(x), constant3(x), position[i].w, position[i].w}, x.allFinite()};
         },
         [](Part const& a, Part const& b)
         {
-            return Part{{constant(a.extent.low.vec().cwiseMin(b.extent.low.vec())),
-                         constant(a.extent.high.vec().cwiseMax(b.extent.high.vec())),
+            return Part{{constant3(a.extent.low.vec().cwiseMin(b.extent.low.vec())),
+                         constant3(a.extent.high.vec().cwiseMax(b.extent.high.vec())),
                          std::max(a.extent.largest_radius, b.extent.largest_radius),
                          std::min(a.extent.smallest_radius, b.extent.smallest_radius)},
                         a.finite && b.finite};

@@ -15,21 +15,6 @@
 namespace gimdem
 {
 
-namespace
-{
-
-Vec3 vector(Triple const& t)
-{
-    return {t[0], t[1], t[2]};
-}
-
-Constant3 constant(Vec3 const& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
-
-}  // namespace
-
 WallGeometry::WallGeometry(PolyMesh const& mesh, std::vector<std::string> const& also, double reach,
                            std::vector<WallItemSettings> const& items)
     : reach_(reach)
@@ -56,13 +41,13 @@ void WallGeometry::add_item(WallItemSettings const& item)
     begin_body("wall \"" + item.name + '"', item.material, WallMotion(item));
     if (item.shape == "plane")
     {
-        Vec3 const normal = vector(item.normal).normalized();
-        add_surface(SurfaceKind::plane, normal, normal.dot(vector(item.point)));
+        Vec3 const normal = vec3(item.normal).normalized();
+        add_surface(SurfaceKind::plane, normal, normal.dot(vec3(item.point)));
     }
     else if (item.shape == "cylinder")
     {
-        WallSurface& tube = add_surface(SurfaceKind::cylinder, vector(item.axis).normalized(), item.radius);
-        tube.point = Quad::of(vector(item.point), item.length);
+        WallSurface& tube = add_surface(SurfaceKind::cylinder, vec3(item.axis).normalized(), item.radius);
+        tube.point = Quad::of(vec3(item.point), item.length);
         tube.endless = !(item.length > 0);
         tube.inside = item.inside;
     }
@@ -149,8 +134,8 @@ void WallGeometry::end_body()
 void WallGeometry::bin_triangles(WallBody& body, std::int64_t first_triangle)
 {
     TriangleBins const bins(triangles_.host().subspan(static_cast<std::size_t>(first_triangle)), reach_);
-    body.low = constant(bins.low());
-    body.high = constant(bins.high());
+    body.low = constant3(bins.low());
+    body.high = constant3(bins.high());
     body.grid = bins.grid();
     body.grid_begin = grid_offsets_.size();
     std::int64_t const before = grid_triangles_.size();

@@ -9,32 +9,17 @@
 namespace gimdem
 {
 
-namespace
-{
-
-Vec3 vector(Triple const& t)
-{
-    return {t[0], t[1], t[2]};
-}
-
-Constant3 constant(Vec3 const& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
-
-}  // namespace
-
-WallMotion::WallMotion(WallItemSettings const& settings) : velocity_(vector(settings.velocity))
+WallMotion::WallMotion(WallItemSettings const& settings) : velocity_(vec3(settings.velocity))
 {
     if (auto const& rotation = settings.rotation)
     {
-        axis_ = vector(rotation->axis).normalized();
-        origin_ = vector(rotation->origin);
+        axis_ = vec3(rotation->axis).normalized();
+        origin_ = vec3(rotation->origin);
         speed_ = rotation->speed;
     }
     if (auto const& vibration = settings.vibration)
     {
-        stroke_ = vibration->amplitude * vector(vibration->direction).normalized();
+        stroke_ = vibration->amplitude * vec3(vibration->direction).normalized();
         angular_frequency_ = 2 * std::numbers::pi * vibration->frequency;
         phase_ = vibration->phase;
     }
@@ -49,10 +34,10 @@ WallPose WallMotion::at(double time) const
     WallPose pose;
     for (int i = 0; speed_ != 0 && i < 3; ++i)
         pose.row[i] = {r(i, 0), r(i, 1), r(i, 2)};
-    pose.shift = constant(moved + origin_ - pose.turn(origin_));
-    pose.velocity = constant(velocity_ + angular_frequency_ * std::cos(wave) * stroke_);
-    pose.spin = constant(speed_ * axis_);
-    pose.centre = constant(origin_ + moved);
+    pose.shift = constant3(moved + origin_ - pose.turn(origin_));
+    pose.velocity = constant3(velocity_ + angular_frequency_ * std::cos(wave) * stroke_);
+    pose.spin = constant3(speed_ * axis_);
+    pose.centre = constant3(origin_ + moved);
     return pose;
 }
 

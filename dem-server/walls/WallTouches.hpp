@@ -10,11 +10,6 @@
 namespace gimdem
 {
 
-GIMDEM_HD inline Constant3 constant3(Vec3 const& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
-
 /// One surface that a particle touches, in space.
 struct Touch
 {

@@ -92,6 +92,8 @@ public:
     [[nodiscard]] virtual bool locate() = 0;
     virtual void sum_into_cells(CellSums& sums) = 0;
     virtual ImpulseSums impulse_sums() = 0;
+    /// Flags of the cells, 1 where the fluid of the next step is read by a particle.
+    virtual void occupied_cells(exec::Buffer<std::uint8_t>& flags) = 0;
     /// Cells of the particles in their present order, for the host.
     virtual void download_cells(exec::Buffer<std::int32_t>& cell_of) = 0;
 

@@ -110,6 +110,7 @@ public:
     bool locate() override { return fluid_.locate(particles_); }
     void sum_into_cells(CellSums& sums) override { finish_step(), fluid_.sum_into_cells(particles_, sums); }
     ImpulseSums impulse_sums() override { return finish_step(), fluid_.impulse_sums(particles_); }
+    void occupied_cells(exec::Buffer<std::uint8_t>& flags) override { fluid_.occupied_cells(particles_, flags); }
     void download_cells(exec::Buffer<std::int32_t>& cell_of) override
     {
         particles_.cell_of.download(device_, cell_of);
@@ -119,6 +120,7 @@ public:
     void upload_cells(exec::Buffer<std::int32_t> const& cell_of) override
     {
         particles_.cell_of.upload(device_, cell_of);
+        fluid_.group_by_cell(particles_);
         device_.wait();
     }
 

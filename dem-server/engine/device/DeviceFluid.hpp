@@ -80,6 +80,9 @@ public:
     std::int64_t clipped();
 
     bool locate(DeviceParticles<Device>& particles);
+    /// Whoever changes the particles' cells calls it.
+    void group_by_cell(DeviceParticles<Device> const& particles);
+    void occupied_cells(DeviceParticles<Device>& particles, exec::Buffer<std::uint8_t>& flags);
     void sum_into_cells(DeviceParticles<Device> const& particles, CellSums& sums);
     ImpulseSums impulse_sums(DeviceParticles<Device> const& particles);
 
@@ -99,7 +102,7 @@ private:
     Array<FluidLoad> loads_;
     Array<std::int32_t> clips_;
     std::int64_t clips_before_ = 0;  ///< when there were more or fewer particles
-    Array<std::uint8_t> status_;
+    Array<std::uint8_t> status_, occupied_;
     exec::DeviceSort<Device> sort_;
     exec::DeviceGroups<Device> by_cell_;
     Array<Share> shares_, sums_;

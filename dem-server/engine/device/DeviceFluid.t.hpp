@@ -30,6 +30,15 @@ struct ImpulseOf
     }
 };
 
+/// Which groups have a member.
+struct OccupiedKernel
+{
+    std::int32_t const* offsets;  ///< shape=(n_cells + 1,)
+    std::uint8_t* flags;
+
+    GIMDEM_HD void operator()(std::int64_t c) const { flags[c] = offsets[c + 1] > offsets[c] ? 1 : 0; }
+};
+
 template <class Device>
 void DeviceMesh<Device>::upload(Device& device, FluidScene const& scene)
 {
@@ -160,8 +169,24 @@ bool DeviceFluid<Device>::locate(DeviceParticles<Device>& particles)
     status_.resize(device_, n);
     device_.for_each(n, LocateKernel{mesh_.finder(scene_->mapper.cell_grid()), particles.position.data(),
                                      mesh_.wall_faces(), particles.cell_of.data(), status_.data()});
-    sort_(device_, {particles.cell_of.data(), n}, mesh_.cell_count(), by_cell_);
+    group_by_cell(particles);
     return highest_(n, EntryOf<std::int32_t, std::uint8_t>{status_.data()}, Highest{}) == 0;
+}
+
+template <class Device>
+void DeviceFluid<Device>::group_by_cell(DeviceParticles<Device> const& particles)
+{
+    sort_(device_, {particles.cell_of.data(), particles.cell_of.size()}, mesh_.cell_count(), by_cell_);
+}
+
+template <class Device>
+void DeviceFluid<Device>::occupied_cells(DeviceParticles<Device>& particles, exec::Buffer<std::uint8_t>& flags)
+{
+    if (particles.cell_of.size() != particles.count()) static_cast<void>(locate(particles));  // as apply() does
+    occupied_.resize(device_, mesh_.cell_count());
+    device_.for_each(mesh_.cell_count(), OccupiedKernel{by_cell_.offsets.data(), occupied_.data()});
+    occupied_.download(device_, flags);
+    device_.wait();
 }
 
 template <class Device>

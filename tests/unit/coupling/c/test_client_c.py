@@ -89,7 +89,8 @@ class ClientInC(unittest.TestCase):
         library = next(self.folder.rglob("libgimdem_client.so"))
         told = subprocess.run([str(self.folder / "column")], env={"LD_LIBRARY_PATH": str(library.parent)},
                               capture_output=True, text=True)
-        self.assertEqual((told.returncode, told.stderr), (2, "usage: column-c <endpoint> <run folder> [folder of keys]\n"))
+        self.assertEqual(told.returncode, 2)
+        self.assertRegex(told.stderr, r"^usage: column-c <endpoint> <run folder> ")
 
 
 if __name__ == "__main__":
