@@ -26,8 +26,8 @@ constexpr std::size_t cells = 4 * 4 * 24;
 constexpr int steps = 4;
 constexpr double dt = 2.5e-3;  ///< coupling step [s]
 
-/// 216 beads at the bottom of a tall box, carried upward by water at 4 m/s: they cross three cells of 3 mm in a coupling
-/// step, so that the velocity that was asked for is not always enough.
+/// 216 beads at the bottom of a tall box, carried upward by water at 4 m/s: they cross three cells of 3 mm in a
+/// coupling step, so that the velocity that was asked for is not always enough.
 struct TallScene
 {
     explicit TallScene(exec::Execution execution)
@@ -95,8 +95,11 @@ public:
 
     coupling::FluidFields fields() const
     {
-        return {values_.at("velocity"), values_.at("velocity_gradient"), values_.at("pressure_gradient"),
-                values_.at("void_fraction_gradient"), {}};
+        return {values_.at("velocity"),
+                values_.at("velocity_gradient"),
+                values_.at("pressure_gradient"),
+                values_.at("void_fraction_gradient"),
+                {}};
     }
 
 private:

@@ -60,8 +60,10 @@ TEST(FluidCoverage, AsksForLoadsWhereParticlesAreAndForTheVelocityTwoLayersAroun
     for (int k = 0; k < 9; ++k)
         for (int j = 0; j < 7; ++j)
             for (int i = 0; i < 7; ++i)
-                if (std::abs(i - 3) + std::abs(j - 3) + std::abs(k - 4) <= 2)
-                    EXPECT_TRUE(velocity.count(number(i, j, k)) == 1) << i << ' ' << j << ' ' << k;
+            {
+                bool const is_near = std::abs(i - 3) + std::abs(j - 3) + std::abs(k - 4) <= 2;
+                EXPECT_TRUE(!is_near || velocity.count(number(i, j, k)) == 1) << i << ' ' << j << ' ' << k;
+            }
     EXPECT_GE(velocity.size(), 25u);
     EXPECT_LE(velocity.size(), 25u + 3 * 13);  // 13 rows of cells
     EXPECT_TRUE(cells_of(coverage.needed(true), "velocity").empty()) << "in no set: needed everywhere";
